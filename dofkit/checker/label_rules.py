@@ -97,8 +97,9 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     Of a single relation that was verified not to be holonomic, only t must not occur. All are divided by a ``factor``
     that is nowhere 0, if one is given.
     """
-    catastatic, factor = claim["field"] == "catastatic", evidence.text(claim.get("factor", "1"))
-    refuse(not evidence.is_nowhere_zero(factor) or evidence.met_by(factor), "the factor may be 0, or holds velocities")
+    catastatic, factor = claim["field"] == "catastatic", evidence.text(claim["factor"]) if "factor" in claim else ONE
+    fits = factor == ONE or (evidence.is_nowhere_zero(factor) and not evidence.met_by(factor))
+    refuse(not fits, "the factor may be 0, or holds velocities")
     names = constraint_relations(evidence, claim, EQUATIONS if catastatic else EVERY)
     relations = [evidence.relation(name) for name in names]
     refuse(catastatic and all(checked.kind != "velocity" for checked in relations), "there is no form")

@@ -27,8 +27,8 @@ class Quotient(NamedTuple):
     below: Any
 
 
-class CheckedRing:
-    """Arithmetic of quotients, reduced by rules; the ring grows with what is read into it."""
+class QuotientRing:
+    """Arithmetic of quotients, reduced by rules."""
 
     def __init__(self, effort: Effort, symbols: int = 0) -> None:
         self.effort = effort
@@ -141,6 +141,10 @@ class CheckedRing:
             root = self.generator(("root", order, int(prime)), order, fmpq(prime)) if inside else product
             product = self.times(product, self.times(self.constant(int(prime) ** outside), self.to_power(root, inside)))
         return product
+
+
+class CheckedRing(QuotientRing):
+    """The ring that grows with what is read into it."""
 
     def vanishes(self, tree: Tree) -> bool:
         """Whether the normal form is 0: then the tree is 0 wherever it has a value."""
