@@ -11,7 +11,6 @@ from dofkit.checker.curves import LEAST, MOST
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, Told, field_named, independent, span
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.point import CheckedPoint, not_zero
-from dofkit.checker.relations import total_derivative
 from dofkit.checker.trees import ONE, derivative, refuse
 
 MOST_FORMS, HIGHEST_DEGREE = 6, 4
@@ -172,9 +171,8 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
             minor = evidence.accounts(evidence.minor(claim["without"][name]), others)
             evidence.on_set(minor.point, evidence.finite)
             whole &= others == {*minor.rows}
-            refuse(
-                verified_rank(evidence, minor.point, verified, number) <= len(minor.rows), f"`{name}` may be dropped"
-            )
+            rank = verified_rank(evidence, minor.point, verified, number)
+            refuse(rank <= len(minor.rows), f"`{name}` may be dropped")
         verified |= {"apart": True} if whole else {}
         return []
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
@@ -199,9 +197,8 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
     """
     if not others or (not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite)):
         return
-    finite = [evidence.relation(row).tree for row in minor.rows if row in evidence.finite]
-    rates = [total_derivative(tree, evidence.variables) for tree in finite]
-    rows = {*minor.rows, *(name for name, relation in evidence.by_name.items() if relation.tree in rates)}
+    rates = (step.target for step in evidence.consequences if step.is_rate and {*step.sources} <= {*minor.rows})
+    rows = {*minor.rows, *rates}
     for name in others:
         used = [
             (*step.defined, *step.nonzero)
@@ -260,9 +257,8 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
     for step, entry in enumerate(claim["spans"], 1):
         point, reached = span(evidence, {**claim, **entry}, step)
         most = min(whole, (rank, rank * (rank + 1) // 2, whole)[min(step, 3) - 1])
-        refuse(
-            point is not minor.point or reached + evidence.timed != most, f"entry {step} is not {most}, or not there"
-        )
+        here = point is minor.point and reached + evidence.timed == most
+        refuse(not here, f"entry {step} is not {most}, or not there")
         vector.append(most)
     refuse(vector[-1] != whole and (len(vector) < 2 or vector[-1] != vector[-2]), "the last entry is not the whole")
     return vector
@@ -273,8 +269,8 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
 
     ``order``: each relation has a coordinate, or its velocity, that those before do not hold. As a derivative by it is
     nowhere 0, a few values of that at most are left, whatever the others are. Where it is the first derivative of all,
-    the finite ones are a graph, and all have constant rank. Instead of a coordinate one may give t, of which almost
-    all values are then regular, where nothing else is claimed (Sard 1942).
+    the finite ones are a graph, in one part if they are linear in what they give, and all have constant rank. Instead
+    of a coordinate one may give t, of which almost all values are then regular, if nothing else is claimed (Sard 1942).
     ``gram``: forms without these velocities whose Gram determinant is positive by itself are independent everywhere.
     ``alone``: an analytic relation beside a graph, or the only form, depends on it on a part of less dimension at most.
     ``generic``: relations with a symbol of their own in which they are nowhere stationary: for almost all values of
@@ -285,25 +281,23 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     dimension that the brackets span, which is largest almost everywhere at once (Nagano 1966).
     """
     order, generic = claim.get("order", []), claim.get("generic", [])
-    alone, gram = [claim["alone"]] if "alone" in claim else [], claim.get("gram", {"forms": []})
+    alone, gram = [claim["alone"]] if "alone" in claim else [], claim.get("gram", {"forms": [], "value": "1"})
     names = [*(name for name, _ in order), *gram["forms"], *alone, *(name for name, _ in generic)]
     size = len(evidence.problem.coordinates)
-    implied, rank = evidence.closure(names, None), len(names)
-    whole, apart = implied.issuperset(evidence.equations), len(set(names)) == rank
-    apart = apart and evidence.closure(evidence.equations, None).issuperset(names)
-    apart = apart and all(evidence.is_linear(name) and not evidence.relation(name).leaf for name in names)
-    fits = claim.get("about") == "everywhere" and apart and implied.issuperset(evidence.finite)
-    refuse(not fits, "a relation is left out, stands twice or is not linear, or the claim is not about everywhere")
+    evidence.follow(names, evidence.equations, None, "the relations")
+    wanted = evidence.equations if claim["path"] == "/velocity_dof" else evidence.finite
+    evidence.follow(wanted, names, None, "those that are named")
+    fits = claim.get("about") == "everywhere" and len(set(names)) == len(names) and all(map(evidence.is_linear, names))
+    fits = fits and not any(evidence.relation(name).leaf for name in names)
+    refuse(not fits, "a relation stands twice or is not linear, or the claim is not about everywhere")
     forms = [name for name in names if evidence.relation(name).kind != "finite"]
-    if gram["forms"]:
-        _independent_everywhere(evidence, gram, [f"{q}dot" for _, q in order])
+    _independent_everywhere(evidence, gram, [f"{q}dot" for _, q in order])
     minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
     rank, graph = len(minor.rows if minor else names), _is_graph(evidence, order, minor and minor.point) and not generic
     for name, letter in generic:
         refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
     refuse(alone and not (graph and forms in ([], alone)), "what stands alone stands beside a graph, and no form")
     smooth = all(_is_analytic(evidence, name, name in alone or not graph) for name in names)
-    # a coordinate that is given by a linear relation is so for all values of the others: the graph is connected
     finite = [(name, q) for name, q in order if evidence.relation(name).kind == "finite"]
     smooth &= not graph or all(q not in evidence.slope(name, q).symbols for name, q in finite)
     refuse((not graph or alone or rank < len(names) or not minor) and not smooth, "it may not be one analytic part")
@@ -318,8 +312,8 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         (rows,) = (evidence.seen["covers", name] for name in claim["covers"])
         refuse(order or sorted(rows) != sorted(names), "one cover of all holonomic equations is needed")
     if not evidence.moving or claim["path"] == "/velocity_dof":
-        refuse(not whole, "each relation stands in one place")
         return size - rank
+    whole = evidence.closure(names, None).issuperset(evidence.equations)
     dof = bounds(evidence, {**claim, "about": "here"}, verified)
     refuse(dof != size - rank + len(forms) and not (whole and smooth and graph), "another part may be larger")
     return dof

@@ -308,9 +308,6 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
         tangent(evidence, ([name] for name in block["fields"]), block["rows"])
         independent(evidence, fields, block["columns"], minor.point)
         total += min(len(variables) - len(fields), len(block["rows"]))
-    refuse(
-        not each_row_once or total != len(minor.rows),
-        "each holonomic equation once, and the rank of the minor are needed",
-    )
+    refuse(not each_row_once or total != len(minor.rows), "each equation once, and the minor's rank are needed")
     evidence.consequences += (Consequence(row, minor.rows, at=minor.point.name) for row in {*rows} - {*minor.rows})
     return rows

@@ -33,7 +33,6 @@ _TOKEN = re.compile(
     r"|(?P<raised>[²³])(?! *(?:[²³^]|\*\*))|(?P<unknown>.))",
     re.ASCII | re.DOTALL,
 )
-_WHOLE = re.compile(r"\d{1,400}", re.ASCII)
 _VELOCITY, _DIFFERENTIAL = re.compile(rf"(.+?)(?:_?dot|['{DOT}])([_0-9].*)?"), re.compile("d(.+)")
 _BEGIN = ("value", "moving", "function", "declared", "(")
 #: With these what a function without parentheses is of may go on.
@@ -134,8 +133,6 @@ def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
 
 def parse(text: object, names: KnownNames) -> Tree:
     """The value that a text writes."""
-    if type(text) is int or (isinstance(text, str) and _WHOLE.fullmatch(text)):
-        return number(int(text))
     return parse_relations(text, names, signs=False)[0].tree
 
 

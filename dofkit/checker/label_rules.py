@@ -10,7 +10,6 @@ from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutiv
 from dofkit.checker.point import CheckedPoint, not_zero
 from dofkit.checker.trees import ONE, ZERO, Tree, add, derivative, homogeneous_degree, refuse, substituted, symbol
 
-Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")
 
 
@@ -28,14 +27,10 @@ def by_kind(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     return 0 if claim["field"] == "independent" else claim["rule"] == "finite"
 
 
-def _setting(evidence: CheckedEvidence, claim: Told) -> tuple[str, ...]:
-    """The relations that may be used: all, or the constraint's own where it is taken alone."""
-    return constraint_relations(evidence, claim) if claim["field"] == "holonomic_alone" else evidence.equations
-
-
 def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     """Check that the constraint's forms depend on geometric equations and integrals, or Frobenius-integrable rows."""
-    allowed = _setting(evidence, claim)
+    alone = claim["field"] == "holonomic_alone"
+    allowed = constraint_relations(evidence, claim) if alone else evidence.equations
     start = {name for name in allowed if evidence.relation(name).kind == "finite"}
     if claim["rule"] == "frobenius":
         point, rows = involutive(evidence, claim, allowed)[:2]
@@ -44,7 +39,7 @@ def integrable(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         refuse(not all(evidence.relation(name).leaf for name in rows), "an integral is a step `integral`")
         evidence.follow(rows, allowed, point, "what is taken together")
     evidence.on_set(point, start)
-    if claim["field"] != "holonomic_alone":
+    if not alone:
         evidence.is_about("here", point)
     evidence.follow(constraint_relations(evidence, claim), {*start, *rows}, point, "what keeps its value")
     return True
@@ -56,9 +51,10 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     A consequence of geometric equations holds for all directions in which the orbit of the fields extends. Or the
     relation is ``curved`` on the velocities that are allowed: where integrals imply it, these are a plane.
     """
-    name, allowed, curves = claim["pairs"], _setting(evidence, claim), claim["rule"] == "curved"
+    name, alone, curves = claim["pairs"], claim["field"] == "holonomic_alone", claim["rule"] == "curved"
+    allowed = constraint_relations(evidence, claim) if alone else evidence.equations
     point = curvature(evidence, claim, allowed).point if curves else admissible(evidence, claim, allowed)[0]
-    if claim["field"] != "holonomic_alone":
+    if not alone:
         evidence.is_about("here", point)
     finite = {*allowed}.intersection(evidence.finite)
     evidence.follow([name], finite.union(constraint_relations(evidence, claim)), point, "the constraint")
@@ -90,7 +86,7 @@ def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     return False
 
 
-def exterior_part(form: Form, i: str, j: str) -> Tree:
+def exterior_part(form: dict[str, Tree], i: str, j: str) -> Tree:
     """A component of the derivative of a form."""
     return derivative(form.get(j, ZERO), i) - derivative(form.get(i, ZERO), j)
 
@@ -101,8 +97,9 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     Of a single relation that was verified not to be holonomic, only t must not occur. All are divided by a ``factor``
     that is nowhere 0, if one is given.
     """
-    catastatic, factor = claim["field"] == "catastatic", evidence.text(claim.get("factor", "1"))
-    refuse(not evidence.is_nowhere_zero(factor) or evidence.met_by(factor), "the factor may be 0, or holds velocities")
+    catastatic, factor = claim["field"] == "catastatic", evidence.text(claim["factor"]) if "factor" in claim else ONE
+    fits = factor == ONE or (evidence.is_nowhere_zero(factor) and not evidence.met_by(factor))
+    refuse(not fits, "the factor may be 0, or holds velocities")
     names = constraint_relations(evidence, claim, EQUATIONS if catastatic else EVERY)
     relations = [evidence.relation(name) for name in names]
     refuse(catastatic and all(checked.kind != "velocity" for checked in relations), "there is no form")
@@ -111,9 +108,8 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         mixed = homogeneous_degree(checked.tree, evidence.velocities) is None and not evidence.is_linear(checked.name)
         refuse(mixed and not nonholonomic, f"`{checked.name}` is no form, or not homogeneous in velocities")
         for name in ["tdot"] if catastatic else ["t"] if nonholonomic else ["t", "tdot"]:
-            evidence.identity(
-                derivative(checked.tree / factor, name), ZERO, f"the derivative of `{checked.name}` by {name}"
-            )
+            what = f"the derivative of `{checked.name}` by {name}"
+            evidence.identity(derivative(checked.tree / factor, name), ZERO, what)
     return True
 
 
@@ -198,10 +194,9 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
 
 def told_integral(evidence: CheckedEvidence, text: Any, point: CheckedPoint) -> Tree:
     """The function, with a value at a point, of an integral that is stated with a constant of a name of its own."""
-    stated, _, constant = str(text).rpartition("=")
-    free = constant.strip().isidentifier() and not evidence.is_taken(constant.strip())
-    refuse(not free, "an integral ends with `= C`")
-    function = evidence.text(stated.strip())
+    stated, _, constant = map(str.strip, str(text).rpartition("="))
+    refuse(not constant.isidentifier() or evidence.is_taken(constant), "an integral ends with `= C`")
+    function = evidence.text(stated)
     point.value(function)
     return function
 

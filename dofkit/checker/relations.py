@@ -9,8 +9,6 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from itertools import chain
 from typing import Any, NamedTuple, TypeVar, cast
 
-from flint import arb
-
 from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.point import CheckedPoint, evaluated, not_zero
@@ -107,16 +105,16 @@ class CheckedRelations:
         """Whether a tree is a product of powers of numbers and parameters that are not 0, or are positive."""
         return nowhere_zero(tree, self.problem.world.signs, self.effort, positive)
 
-    def has_value_everywhere(self, tree: Tree, poles: bool = False) -> bool:
+    def has_value_everywhere(self, tree: Tree, poles: bool = False, point: CheckedPoint | None = None) -> bool:
         """Whether a tree is smooth (analytic, but for declared functions) at all real values of its symbols.
 
-        With ``poles``: whether it is a quotient of such trees.
+        With ``poles``: whether it is a quotient of such trees. At a ``point``: at all velocities there.
         """
-        if not tree.symbols:
-            return evaluated(tree, {}, self.effort) is not None
+        if tree.symbols.isdisjoint(self.velocities if point else tree.symbols):
+            return (point.value(tree) if point else evaluated(tree, {}, self.effort)) is not None
         plain = keeps_values(tree, poles) or (tree.head == "atan2" and self.is_nowhere_zero(tree.below[1], True))
         poles &= tree.head in ("sum", "product", "power")
-        return plain and all(self.has_value_everywhere(part, poles) for part in tree.below)
+        return plain and all(self.has_value_everywhere(part, poles, point) for part in tree.below)
 
     def _take_steps(self) -> None:
         makers = {"rate": self._rate, "implied": self._implied, "integral": self._implied}
@@ -175,9 +173,8 @@ class CheckedRelations:
         """What is constantly 0, or keeps its value, has the derivative 0."""
         of = self.relation(step["of"])
         refuse(of.kind != "finite", "only a holonomic equation has a rate")
-        return total_derivative(of.tree, self.variables), Consequence(
-            step["id"], (of.name,), (), (of.tree,), is_rate=True
-        )
+        consequence = Consequence(step["id"], (of.name,), defined=(of.tree,), is_rate=True)
+        return total_derivative(of.tree, self.variables), consequence
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
         """The relations of a constraint, or of all."""
@@ -195,10 +192,7 @@ class CheckedRelations:
         return self.by_name[name]
 
     def closure(self, start: Iterable[str], point: CheckedPoint | None, rates: bool = True) -> set[str]:
-        """All that holds near a point (or, without one, everywhere) where ``start`` does, by the steps.
-
-        Without ``rates``: at a state alone.
-        """
+        """All that holds near a point (or everywhere) where ``start`` does, by steps; without ``rates``: at a state."""
         implied, size = set(start), -1
         while len(implied) > size:
             size = len(implied)
@@ -222,13 +216,11 @@ class CheckedRelations:
         if point is None:
             bare = consequence.at is None and not consequence.nonzero
             return bare and all(map(self.has_value_everywhere, consequence.defined))
-        # a ball that holds all velocities, as near as a ball can: a motion may be slowed down
-        wide = {v: arb(0, 10**30) for v in self.velocities}
 
         def evaluate() -> bool:
             try:
                 values = [point.value(tree) for tree in consequence.nonzero]
-                smooth = all(point.value_with(tree, wide).is_finite() for tree in consequence.defined)
+                smooth = all(self.has_value_everywhere(tree, point=point) for tree in consequence.defined)
             except CheckError:
                 return False
             return smooth and consequence.at in (None, point.name) and all(map(not_zero, values))

@@ -241,6 +241,8 @@ export class Evidence {
       if (!this.at(h, point).nonzero) return false;
       if (h.hasAny(this.scene.rates) && !this.isState(point)) return false;
       texts.forEach((text) => this.at(text, point, true));
+      const still = (text) => !text.hasAny(this.scene.rates);
+      refuse(!texts.every((text) => still(text) || isTotal(text, still)), "velocities without a value");
       return true;
     } catch (error) {
       if (error instanceof Refused) return false;

@@ -128,7 +128,6 @@ def _gives(context: Context, name: str, q: str, most: int = 1) -> bool:
 
 # Evidence where rows are stationary at the main point: what is isolated there, and what crosses itself.
 
-SIGNS = (1, -1)
 #: The engines' arguments by which it is so.
 STATIONARY = ("isolated zero of one variable", "indefinite form", "definite form", "definite combination", "cases")
 
@@ -173,7 +172,7 @@ def _isolated(context: Context, standing: Standing, fields: dict[str, str]) -> I
 
 def _directions(context: Context, standing: Standing) -> list[dict[str, int]]:
     free = [q for q in context.problem.coordinates if q not in standing.columns]
-    return [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
+    return [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in (1, -1)]
 
 
 def _crossing(context: Context, standing: Standing) -> Iterator[Told]:

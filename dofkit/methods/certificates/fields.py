@@ -70,7 +70,11 @@ def kept_motions(
     scenery, held = context.scenery, held_by(context.scenery, names)
     fields = [{q: text for q, text in motion.items() if q in held} for motion in motions(context.problem.world)]
     ids = [scenery.entry_id("fields", {"components": field}) for field in fields]
-    kept = [motion for motion in ids if _is_kept(scenery, motion, names)]
+    kept = []
+    for motion in ids:
+        with suppress(CheckError):
+            tangent(scenery.evidence, [[motion]], names)
+            kept.append(motion)
     moved = [field_named(scenery.evidence, motion) for motion in kept]
     rows = [{q: point.estimates.value(tree) for q, tree in field.items() if q not in fixed} for field in moved]
     return {kept[p.row]: p.column for p in echelon(rows)}
@@ -81,15 +85,6 @@ def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
     trees = [scenery.evidence.relation(name).tree for name in names]
     held = [[q for q in scenery.problem.coordinates if {q, f"{q}dot"} & tree.symbols] for tree in trees]
     return [[names[k] for k in numbers] for numbers in components(held)]
-
-
-def _is_kept(scenery: Scenery, motion: str, names: Sequence[str]) -> bool:
-    """Whether a field is tangent to relations, identically."""
-    try:
-        tangent(scenery.evidence, [[motion]], names)
-    except CheckError:
-        return False
-    return True
 
 
 # Evidence about what velocities allow: fields by Cramer's rule, words of brackets, orbits, growth.

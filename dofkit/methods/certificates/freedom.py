@@ -53,15 +53,11 @@ def dof(context: Context) -> Iterator[Told]:
         return
     if context.report.verdicts["dof"].about == "everywhere":
         yield from everywhere(context)
-    yield from _near(context)
-
-
-def _near(context: Context) -> Iterator[Told]:
     if context.scenery.moving:
         yield from orbit(context)
-        return
-    yield from _regular(context)
-    yield from stationary(context)
+    else:
+        yield from _regular(context)
+        yield from stationary(context)
 
 
 def velocity_dof(context: Context) -> Iterator[Told]:

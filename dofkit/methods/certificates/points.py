@@ -89,7 +89,10 @@ class PointSearch:
         """Points of the relations ``names``, the ``unknowns`` free: one for each start from which one is reached."""
         for attempt in range(seed, seed + attempts):
             with suppress(NoEstimateError, CheckError):
-                reached = self.approached(floats_of(self._start(attempt, unknowns)), names, set(unknowns))
+                start, generic = floats_of(self._start(attempt, unknowns)), self.problem.world.generic
+                lengths = [name for name in names if not self.scenery.tree(name).symbols.isdisjoint(generic)]
+                start = self.approached(start, lengths, set(generic).intersection(unknowns)) or start
+                reached = self.approached(start, names, set(unknowns))
                 point = self.settled(reached, names, set(unknowns)) if reached is not None else None
                 if point is not None:
                     yield point
@@ -129,7 +132,7 @@ class PointSearch:
         self, start: Mapping[str, float], names: Sequence[str], unknowns: set[str]
     ) -> dict[str, float] | None:
         """Gauss and Newton's method from a start."""
-        floats = self._with_generic(dict(start), names, unknowns)
+        floats = dict(start)
         for _ in range(ITERATIONS):
             self.scenery.effort.spend(40 * len(names) * (1 + len(names)))
             estimates = Estimates(floats)
@@ -144,18 +147,6 @@ class PointSearch:
             if size < 1e-14:
                 break
         return floats if residual(self.scenery, floats, names) < NEAR else None
-
-    def _with_generic(self, floats: dict[str, float], names: Sequence[str], unknowns: set[str]) -> dict[str, float]:
-        """Generic lengths as they are at the start."""
-        generic = unknowns.intersection(self.problem.world.generic)
-        estimates = Estimates(dict(floats))
-        for name in names if generic else ():
-            tree = self.scenery.tree(name)
-            value, slope = estimates.value(tree), estimates.gradient(tree)
-            symbols = [symbol for symbol in slope if symbol in generic]
-            if len(symbols) == 1:
-                floats[symbols[0]] -= value / slope[symbols[0]]
-        return floats
 
     def pivots(self, floats: Mapping[str, float], names: Sequence[str], unknowns: set[str]) -> list[Pivot]:
         """Independent rows, with columns that are easily solved for."""

@@ -34,8 +34,7 @@ from dofkit.methods.certificates.numerics import Estimates, NoEstimateError
 
 def number_text(value: Fraction | int) -> str:
     """A rational number."""
-    value = Fraction(value)
-    return str(value.numerator) if value.denominator == 1 else f"{value.numerator}/{value.denominator}"
+    return str(Fraction(value))
 
 
 def text_of(tree: Tree) -> str:
