@@ -345,7 +345,7 @@ def main() -> None:
         if "mutations" in parts:
             tamper(catalog, 10_000 // step, given.seed, pool, given.list)
         if "edits" in parts:
-            edit(catalog, 1_000 // step, given.seed, pool)
+            edit(catalog, 2_000 // step, given.seed, pool)
     if "sizes" in parts:
         sizes(catalog)
     if "times" in parts:

@@ -79,11 +79,6 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "zero, unity = self.sample, self.sample - 1",
     ): "a quadratic form has the same value at -u as at u",
     (
-        "dofkit/classification/dependence/comparison.py",
-        "size = rng.randint(1, 2**20)",
-        "size = rng.randint(0, 2**20)",
-    ): "once in a million draws another number is drawn",
-    (
         "dofkit/integrability/lie_algebra.py",
         "enough = n - free + 2 + (BEYOND if special else 0)",
         "enough = n - free + 2 + (BEYOND if special else 1)",

@@ -113,7 +113,7 @@ def is_unconstrained(chart: Chart) -> bool:
 
 
 def is_parametric(chart: Chart, values: Collection[Expr]) -> bool:
-    """Return whether symbols without ``values`` or unknown functions occur, on whose values signs may depend."""
+    """Return whether signs may depend on unknown functions, or on symbols that have no value in ``values``."""
     return any(v.kind == "call" or (v.kind == "symbol" and v.key not in values) for v in chart.ring.vars)
 
 
