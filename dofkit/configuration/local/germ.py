@@ -187,15 +187,22 @@ def ahead(ball: Manifold, count: int) -> list[float]:
 
 
 def degree_of(manifold: Manifold) -> int:
-    """Return a bound on the degree of the dependent relations along lines, see `_Weights`."""
-    return degree_bound(manifold.ring, manifold.others, _Weights(manifold).of)
+    """Return a bound on the degree of the dependent relations along lines, see `_Weights`.
+
+    Columns that are given implicitly may be flat: y + y^3 = x^40. This counts if no point at a distance would show it.
+    """
+    weights = _Weights(manifold)
+    degree = degree_bound(manifold.ring, manifold.others, weights.of)
+    if degree <= SEEN:
+        weights.implicit, weights.degrees = 1, {}
+        degree = degree_bound(manifold.ring, manifold.others, weights.of)
+    return degree
 
 
 class _Weights:
-    """The degrees of columns: that of its expression for a column that a relation gives explicitly, otherwise 1.
+    """The degrees of columns: that of its expression for a column that a relation gives explicitly.
 
-    Relations of a degree above `ORDER` may make a column that they give implicitly flat: y + y^3 = x^40. It counts where
-    their product is above `SEEN`.
+    For others ``implicit``, the product of the relations' degrees that are above `ORDER`, or 1.
     """
 
     def __init__(self, manifold: Manifold) -> None:
@@ -211,7 +218,6 @@ class _Weights:
             else:
                 degree = degree_bound(self.ring, [row], lambda column: 1)
                 self.implicit *= degree if degree > ORDER else 1
-        self.implicit = self.implicit if self.implicit > SEEN else 1
         self.degrees: dict[int, int] = {}
 
     def of(self, column: int) -> int:
