@@ -321,8 +321,8 @@ def _compared(regions: Regions, asked: Sequence[Relation], answer: Sequence[Rela
         if _compared(regions, *closed).sameness is Sameness.SAME:
             return Compared(Sameness.BOUNDARY)
     if beyond.exists:
-        return Compared(Sameness.DIFFERENT if lacking.exists else Sameness.WEAKER, system=beyond.system)
-    return Compared(Sameness.STRONGER, system=lacking.system)
+        return Compared(Sameness.WEAKER if lacking.exists is False else Sameness.DIFFERENT, system=beyond.system)
+    return Compared(Sameness.STRONGER if beyond.exists is False else Sameness.DIFFERENT, system=lacking.system)
 
 
 def _is_bounded(wanted: Sequence[Normal], context: Sequence[Reduced]) -> bool:
