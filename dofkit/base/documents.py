@@ -124,7 +124,7 @@ def _decoded(data: bytes | str) -> tuple[str, tuple[int, Fault] | None]:
 def _offset_of_column(source: str, column: int) -> int:
     """Return the offset of a value's ``column`` in the ``source`` of the value: 1 for column 1 of ``"x"``.
 
-    It is 0 for a block scalar and for a value of several lines.
+    It is 0 (not known) for a block scalar and for a value of several lines.
     """
     if source[:1] in ("|", ">"):
         return 0

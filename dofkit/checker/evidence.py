@@ -211,7 +211,7 @@ def of_word(evidence: CheckedEvidence, word: Any, allowed: Iterable[str], longes
 
 
 def bracket(evidence: CheckedEvidence, x: VelocityField, y: VelocityField) -> VelocityField:
-    """[X, Y] = (DY) X - (DX) Y, at the price of the size of the fields; large ones are refused."""
+    """[X, Y] = (DY) X - (DX) Y, spending effort by the size of the fields; large ones are refused."""
     sizes = [sum(tree.size for tree in field.values()) for field in (x, y)]
     evidence.effort.spend(sizes[0] * len(y) + sizes[1] * len(x) + 1)
     refuse(max(sizes) > LARGEST_FIELD, "a bracket is too large")

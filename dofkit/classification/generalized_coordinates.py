@@ -210,8 +210,8 @@ def _is_regular(block: Block, a: Answer, chosen: Sequence[str], setting: Setting
 def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:
     """Return ``dof`` coordinates of which all others are explicit functions by the relations; None if there are none.
 
-    Later coordinates of the block are preferably solved for. At a reference configuration a coefficient may be 0, so
-    that only numbers are divided by there.
+    Preferably those with a number as coefficient are solved for, then later ones. At a reference configuration another
+    coefficient may be 0, so that only numbers are divided by there.
     """
     if block.forms or block.nonlinear or len(block.coordinates) > MOST:
         return None

@@ -90,7 +90,10 @@ ALLOWING = "the answers assume that the unknown functions are such that a real c
 
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
-    """Return a real zero of the nodes ``core``, with balls; None if none is found, or the block is too large."""
+    """Return a real zero of the relations with the nodes ``core``, with balls.
+
+    None if none is found, balls are off, or the block is too large.
+    """
     if len(chart.columns) > BALL_COLUMNS or "balls" not in chart.setting.engines:
         return None
     search = RealSearch(chart.ring, core, chart.unknowns, chart.setting.positive, chart.symbols)

@@ -43,12 +43,12 @@ def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
     basis = None if integral is None else _basis(integral[0])
     if integral is None or basis is None:
         return None
-    _, unknowns, unseen = integral
+    _, count, unseen = integral  # ``unseen``: the number of coordinates in no polynomial
     leading = [frozenset(i for i, k in enumerate(p.monomial(0)) if k) for p in basis]
     if frozenset() in leading:
         return -1
     check()
-    choices = (free for size in range(unknowns, -1, -1) for free in combinations(range(unknowns), size))
+    choices = (free for size in range(count, -1, -1) for free in combinations(range(count), size))
     return unseen + len(next(free for free in choices if not any(used <= set(free) for used in leading)))
 
 

@@ -276,7 +276,10 @@ def total_differential(e: Expr) -> Expr | None:
 
 
 def _by_the_chain_rule(e: Expr, rates: Mapping[str, Callable[[str], Expr]]) -> Expr | None:
-    """Return the sum over the symbols s of ``e`` of d e/d s times the rate of s, or None if some s has no rate."""
+    """Return the sum over the symbols s of ``e`` of d e/d s times the rate of s, or None if some s has no rate.
+
+    Parameters are constant.
+    """
     terms = []
     for symbol in sorted(e.symbols, key=lambda s: s.args):
         kind, name = symbol.args

@@ -124,7 +124,7 @@ def _real(states: States, point: FieldPoint | None, result: Answer) -> RealPoint
             break
     if calls and best is not None:
         result.verdict = weakest(result.verdict, "probable")
-        result.reasons.append("for an unknown function that allows real velocities")
+        result.reasons.append("an unknown function was chosen such that real velocities exist")
     return best
 
 

@@ -84,7 +84,7 @@ class _ReferenceNumbers:
         self.p, self._numbers, self._size = p, numbers, size
         self._rng = random.Random("dofkit drawn")
         self._turn = self._rng.randrange(1, p or FREE)
-        self._elsewhere: dict[str, NumberTuple] = {}
+        self._random_places: dict[str, NumberTuple] = {}
 
     def random(self, dimension: int) -> NumberTuple:
         return tuple(self._rng.randrange(1, self.p or FREE) for _ in range(dimension))
@@ -96,11 +96,12 @@ class _ReferenceNumbers:
         return self.vector(reference, dimension)
 
     def point(self, point: DrawnPoint, dimension: int) -> NumberTuple:
+        """Return a point's position; random ones, the same for all points of a carrier, if none is given."""
         if point.at is not None:
             return self.vector(point.at, dimension)
-        if point.carrier not in self._elsewhere:
-            self._elsewhere[point.carrier] = self.random(dimension)
-        return self._elsewhere[point.carrier]
+        if point.carrier not in self._random_places:
+            self._random_places[point.carrier] = self.random(dimension)
+        return self._random_places[point.carrier]
 
     def number(self, reference: Expr | None, by_turn: bool) -> Any:
         """Return a number of a connection; a screw's pitch times any factor, because 2 pi is no number of GF(p)."""

@@ -222,6 +222,7 @@ class Follower:
         return None if direction is None else Reached(moved, direction)
 
     def _both_ways(self, pose: Pose, poses: list[Reached], target: Array | None) -> BothDirections:
+        """Return the poses reached furthest along and against the direction ``target``; None where there is none."""
         if not poses:
             return None, None
         if self.clock is not None:

@@ -74,7 +74,7 @@ class Arrangement:
 
     @property
     def first_values(self) -> dict[str, float]:
-        """{name: value} at which a motion begins: of parameters, and without a reference of t and coordinates."""
+        """{name: value} at which a motion begins: of parameters; without a reference of t and coordinates too."""
         values = {p: self.numbers[parameter(p)] for p in (*self.system.parameters, *self.system.generic)}
         if self.system.reference is None:
             values["t"] = self.numbers[TIME]

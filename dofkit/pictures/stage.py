@@ -212,7 +212,7 @@ def _motions(arrangement: Arrangement, report: Report) -> tuple[FreeMotion, ...]
 
 
 def _written_place(arrangement: Arrangement, connection: Connection) -> Place | None:
-    """Return the place of a constraint's symbol that the scene gives, or None."""
+    """Return the position that the scene gives a connection, else that of its first vertex, or None."""
     for at in connection.places:
         if at is not None:
             return arrangement.point(at)

@@ -331,6 +331,7 @@ def _arms(drawing: Drawing, centre: Vec | None) -> dict[str, Vec]:
 
 
 def _rotations(drawing: Drawing) -> tuple[Rotation, ...]:
+    """Return the bodies' rotations in three coordinates, with their reference values."""
     rotations = []
     for frame in drawing.frames.values():
         if frame.chart == "gibbs" or frame.chart == "euler":

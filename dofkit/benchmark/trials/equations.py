@@ -156,7 +156,7 @@ def sums_of_squares() -> Iterator[KnownScene]:
             ("a point", f"{total} = 0", 0, "every square is 0"),
             ("a sphere", f"{total} = 1", n - 1, "a sphere"),
             ("nothing", f"{total} + 1 = 0", -1, "squares are not negative"),
-            ("a cone", f"{total} = (x0 + 1)^2", n - 1, "a quadric with a regular point"),
+            ("a paraboloid", f"{total} = (x0 + 1)^2", n - 1, "a quadric with a regular point"),
             ("sums of two", f"{mixed} = 0", 0, "the matrix 1 + 2 shift is regular: x = 0"),
             ("fourth powers", f"{_sum(n, 'x{k}^4')} = 0", 0, "all 0"),
         ]

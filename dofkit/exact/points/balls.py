@@ -128,6 +128,7 @@ class FloatPoint(_RealPoint):
         return value.numerator / value.denominator
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> float:
+        """Return the floating-point value of a generator."""
         if var.kind == "symbol":
             return float(self.symbols[var.key])
         if var.kind == "pi":

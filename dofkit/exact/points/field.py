@@ -289,7 +289,7 @@ class FieldPoint:
         """Set cosine and sine of an angle: by a root of unity for pi/D, otherwise at random."""
         angle, denominator = var.key
         if angle == ex.PI:
-            cos, sin = self._root_of_unity(denominator)
+            cos, sin = self._cos_and_sin(denominator)
         elif args[0] == 0:
             cos, sin = residue(1, self.p), residue(0, self.p)
         else:
@@ -324,8 +324,8 @@ class FieldPoint:
             self._zeta = zeta ** (n // (2 * self.order))  # exp(pi i / order)
             self._imaginary = zeta ** (n // 4)
 
-    def _root_of_unity(self, denominator: int) -> tuple[Scalar, Scalar]:
-        """Return cos and sin of pi/denominator, as powers of one primitive root of unity."""
+    def _cos_and_sin(self, denominator: int) -> tuple[Scalar, Scalar]:
+        """Return cos and sin of pi/denominator, from powers of one primitive root of unity."""
         self._setup_unity()
         zeta = self._zeta ** (self.order // denominator)
         inverse = 1 / zeta

@@ -220,7 +220,10 @@ def _consistent(rows: list[list[int]], p: int) -> list[bool]:
 
 
 def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
-    """Return [coefficients of the unknowns, remainder], or None if ``e`` is not linear in them as written."""
+    """Return [coefficients of the unknowns, remainder], or None if ``e`` is not linear in them as written.
+
+    None also if other accelerations, or differentials, occur.
+    """
     row = [diff(e, s) for s in unknown]
     moving = {*unknown}
     if any(c.symbols & moving or any(s.args[0] == "acceleration" for s in c.symbols) for c in row):

@@ -109,7 +109,7 @@ def _follows(key: Key, text: str) -> bool:
 
 
 def faults_of_own(key: Key) -> Iterator[Fault]:
-    """Yield the faults of the coordinates that an assignment offers."""
+    """Yield the faults of the additional coordinates (``also``) that an assignment offers."""
     for name, text in key.also.items():
         odd = why_invalid(name)
         if odd is not None:

@@ -136,7 +136,10 @@ def _touched(context: Context, standing: Standing, free: str) -> list[str]:
 
 
 def words_of(context: Context, standing: Standing, most: int) -> Words | None:
-    """Left-normed brackets, level by level, until ``most`` are independent at the point or nothing new comes."""
+    """Left-normed brackets of the tangent fields, level by level, until ``most`` are independent or nothing new comes.
+
+    Independent at the point; None if there are no fields.
+    """
 
     def grown() -> Words | None:
         with suppress(CheckError, NoEstimateError, RecursionError):

@@ -82,7 +82,7 @@ class PebbleGame:
                 self._condense(a, b, reached)
 
     def _links_to_play(self) -> list[int]:
-        """Return the links that are not removed with a joint, last to first; cover all others."""
+        """Return the links that the pebble game has to decide, last to first; cover those removed with a joint."""
         tail, head, _, degree = self.net
         self._remove_joints([v for v, number in enumerate(degree) if number <= 2])
         played, queue = [], list[int]()

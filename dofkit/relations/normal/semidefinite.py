@@ -39,7 +39,10 @@ class Signs:
         return constant >= remainder and constant > 0
 
     def _weights(self, poly: Any) -> tuple[Fraction, Fraction]:
-        """Return (|constant|, bound on the sum of the other terms); (0, 1) if other generators occur."""
+        """Return (|constant|, bound on the sum of the other terms).
+
+        (0, 1), which proves nothing, if other generators occur.
+        """
         constant = remainder = Fraction(0)
         for exponents, coefficient in poly.to_dict().items():
             present = {self.n - 1 - i for i, k in enumerate(exponents) if k}

@@ -269,7 +269,10 @@ class Universal(LocatedJoint):
         return JointGeometry(self.located(world), self._pair(world))
 
     def _pair(self, world: World) -> tuple[Direction, Direction]:
-        """Return the two axes in the reference configuration; a fault is recorded if they are not perpendicular."""
+        """Return the two axes in the reference configuration, general ones if none are given.
+
+        A fault is recorded if they are not perpendicular.
+        """
         if self.axes is None:
             if self.at is not None:
                 hint = "add `axes: [[1, 0, 0], [0, 1, 0]]`, or leave both out for a joint in general position"
