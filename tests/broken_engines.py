@@ -84,8 +84,8 @@ BUGS: Mapping[str, Bug] = {
     ),
     "branches": Bug(
         "relations/normal/zero_set.py",
-        "        if len(signs) != 1 or None in signs:\n",
-        "        if len(signs - {None}) != 1:\n",
+        "        if not (one_sign and all(never_negative(factors, self.positive) for _, factors in terms)):\n",
+        "        if not any(never_negative(factors, self.positive) for _, factors in terms):\n",
         "tests/scenes/mechanisms/plate-between-three-fingers.yaml",
     ),
     "labels": Bug(

@@ -156,7 +156,7 @@ MISTAKEN: dict[str, tuple[int, str, str]] = {
     "0^0": (2, "`0^0`", ""),
     "0^x": (2, "no real value", "positive base"),
     "(-2)^pi": (5, "no real value", "positive base"),
-    "sqrt(-1)": (1, "no real root", ""),
+    "sqrt(-1)": (1, "a root of a negative number is not read", "an even root is not real"),
     "log(0)": (1, "no real value", ""),
     "asin(2)": (1, "no real value", ""),
     "x = y; z": (6, "one relation", ""),
