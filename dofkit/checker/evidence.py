@@ -80,8 +80,9 @@ class CheckedEvidence(CheckedRelations):
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
         states |= not all(self.is_linear(relation.name) for relation in wanted)
         met = {relation.name for relation in wanted if states or relation.kind == "finite"}
-        held = self.closure({*point.rows, *(name for name in met if self.holds(name, point))}, point, rates=False)
-        refuse(met - held, f"`{min(met - held, default='')}` is not shown to follow from what holds")
+        start = {*point.rows, *(name for name in met if self.holds(name, point))}
+        implied = self.closure(start, point, rates=False)
+        refuse(met - implied, f"`{min(met - implied, default='')}` is not shown to follow from what holds")
         for relation in wanted:
             for velocity in self.met_by(relation.tree):
                 point.value(self.slope(relation.name, velocity[:-3]))

@@ -128,7 +128,7 @@ class Equivalence:
     def result(self) -> Compared:
         """Return how the submitted constraints compare with the wanted ones, and which of these they imply.
 
-        Submitted ones are sound if the wanted ones imply them, wanted ones are met if the sound ones do; None: open.
+        Submitted ones are sound if the wanted ones imply them, wanted ones are met if the sound ones do.
         """
         submitted, wanted = self.submitted.values(), self.wanted.values()
         if any(r.inequalities for r in (*wanted, *submitted)):
@@ -241,8 +241,10 @@ class Equivalence:
         if not finite or any(isinstance(p, Finite) for n in self._answer for p in n.pieces):
             return False
         implied = self._follow([_differential(g) for g in finite], self._answer)
+        if implied is not False:
+            return implied
         as_many = self._with(self.submitted).velocity_dof == self._with(self.wanted).velocity_dof
-        return None if implied is False and as_many else implied
+        return None if as_many else False
 
     def _integrated(self) -> Sameness | None:
         """Return with or without a constant the wanted forms are integrated, or undecided; None if they are not."""

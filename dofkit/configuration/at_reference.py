@@ -52,7 +52,7 @@ from dofkit.relations.blocks import Chart
 
 #: The least ratio of two pivots between which the rank is certain.
 CLEAR = 1e3
-#: Number of values of each parameter without a given one for which signs are compared; they are up to 2^+-`WIDEST`.
+#: Number of values, up to 2^+-`WIDEST`, of each parameter without a fixed value, for which signs are compared.
 DRAWS, WIDEST = 24, 8
 #: Sizes of random displacements from the reference in `near_reference`.
 NEAR = (2**-6, 2**-10, 2**-16, 2**-24)
@@ -264,10 +264,14 @@ def ball_point(chart: Chart, pose: Mapping[Expr, Expr], draw: int = 0) -> BallPo
 
 
 def ball_points(chart: Chart, pose: Mapping[Expr, Expr]) -> list[BallPoint]:
-    """Return a pose as points of balls: one, or `DRAWS` if there are other symbols or unknown functions; or none."""
+    """Return a pose as points of balls: one, or up to `DRAWS` if there are other symbols or unknown functions.
+
+    None of these if only one of the values drawn for other symbols is defined: it cannot be compared.
+    """
     free = is_parametric(chart, pose) or any(pose[s].symbols for s in chart.symbols if s in pose)
     draws = range(DRAWS if free else 1) if "balls" in chart.setting.engines else ()
-    return [ball for draw in draws if (ball := ball_point(chart, pose, draw)) is not None]
+    balls = [ball for draw in draws if (ball := ball_point(chart, pose, draw)) is not None]
+    return [] if free and len(balls) == 1 else balls
 
 
 def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | None:

@@ -1,7 +1,7 @@
 """Compares the regions that relations describe together with other constraints.
 
 Two regions are equal if neither contains a point outside the other. Each difference is a system of inequalities, which
-is proved to be empty or for which a certified point is found.
+is proved to be empty or has a certified point.
 """
 
 from __future__ import annotations

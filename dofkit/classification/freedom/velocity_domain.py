@@ -64,8 +64,8 @@ def with_values_in_motion(
         in_domain = [replace(a, verdict=weakest(a.verdict, sure)) if i in members else a for i, a in enumerate(answers)]
         return result._replace(answers=in_domain)
     unknown = Answer(None, verdict="undecided", reasons=[f"{why} no motion is known to satisfy"])
-    open_ = [unknown if i in members else a for i, a in enumerate(answers)]
-    return result._replace(answers=open_, unsettled=(*result.unsettled, *unplaced))
+    undecided = [unknown if i in members else a for i, a in enumerate(answers)]
+    return result._replace(answers=undecided, unsettled=(*result.unsettled, *unplaced))
 
 
 def _where_it_vanishes(

@@ -86,11 +86,13 @@ class Manifold:
     @cached_property
     def _inverse(self) -> Any:
         """The inverse matrix (or elimination) of the independent rows in the dependent columns, at the point."""
-        at, rows = values(self.ring, self.base), []
-        for node in self.rows:
-            g = gradient(self.ring, at, self.base, [(node, self.sample + 1)])
-            rows.append([g.get(self.columns[c], self.sample) for c in self.frame.dependent])
-        return inverse(rows)
+        at, columns = values(self.ring, self.base), [self.columns[c] for c in self.frame.dependent]
+        slopes = [gradient(self.ring, at, self.base, [(node, self.sample + 1)]) for node in self.rows]
+        if isinstance(self.sample, Residue):
+            place = {column: k for k, column in enumerate(columns)}
+            rows = [{place[c]: int(v) for c, v in slope.items() if c in place and v != 0} for slope in slopes]
+            return factored(rows, modulus(self.sample))
+        return inverse([[slope.get(c, self.sample) for c in columns] for slope in slopes])
 
     def follow(self, direction: Sequence[Scalar], order: int) -> list[Series]:
         """Return the dependent relations, as series, along the curve with free columns start + s direction."""
