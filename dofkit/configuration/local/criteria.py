@@ -74,7 +74,7 @@ def local_dimension(germ: Germ, asked: Sequence[Criterion] = CRITERIA, others: I
 
     At an approximate point, with balls only, a value whose tiny ball contains 0 counts as 0; the verdict is "numeric".
     ``others``: germs for other values of parameters, for which the criteria that use signs must conclude the same; then
-    it is "probable".
+    it is "numeric".
     """
     with ctx.workprec(max(ctx.prec, precision())):
         try:
@@ -92,7 +92,7 @@ def _decision(germ: Germ, asked: Sequence[Criterion], others: Iterable[Germ]) ->
             elsewhere = [_decision(other, OF_SIGNS, ()).dimension for other in others] if criterion in OF_SIGNS else []
             if any(dimension != conclusion.dimension for dimension in elsewhere):
                 return OTHERWISE
-            best: Verdict = "probable" if elsewhere else "proved"
+            best: Verdict = "numeric" if elsewhere else "proved"
             verdict = weakest(criterion.verdict, conclusion.verdict, best if germ.exact else "numeric")
             return LocalDimension(conclusion.dimension, verdict, conclusion.reason, conclusion.confined, criterion.key)
     return UNDECIDED
