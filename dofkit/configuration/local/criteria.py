@@ -7,7 +7,7 @@ The first row whose function returns a conclusion decides. A new criterion needs
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from flint import ctx
 
@@ -37,33 +37,34 @@ OTHERWISE = LocalDimension(
 class Criterion(NamedTuple):
     """A criterion, with the ``key`` of its argument (`classification/arguments.yaml`).
 
-    ``decide`` checks the hypotheses and returns the conclusion, or None. ``verdict``: the best verdict of a conclusion
-    ("undecided": no later criterion is tried); with balls only it is "numeric".
+    ``basis``: whether it shows a manifold (or that this is undecided), an isolated zero, or uses signs, which may
+    differ for other values of parameters. ``decide`` checks the hypotheses and returns the conclusion, or None.
+    ``verdict``: the best verdict of a conclusion ("undecided": no later criterion is tried); with balls only it is
+    "numeric".
     """
 
     key: ArgumentKey
+    basis: Literal["manifold", "zero", "signs"]
     verdict: Verdict
     decide: Callable[[Germ], Conclusion | None]
 
 
 CRITERIA: tuple[Criterion, ...] = (
-    Criterion("independent relations", "proved", conclusions.manifold),
-    Criterion("rigid to first order", "proved", conclusions.orbit),
-    Criterion("zero along a curve", "probable", conclusions.whole_manifold),
-    Criterion("flat along a curve", "undecided", conclusions.flat),
-    Criterion("isolated zero of one variable", "proved", conclusions.isolated_zero),
-    Criterion("indefinite form", "proved", conclusions.indefinite),
-    Criterion("definite form", "proved", conclusions.definite),
-    Criterion("definite combination", "proved", conclusions.prestress_stable),
-    Criterion("least along a motion", "probable", conclusions.least_along_a_motion),
-    Criterion("change of sign", "probable", conclusions.changing_sign),
-    Criterion("critical branch", "probable", conclusions.critical_branch),
-    Criterion("branch followed", "numeric", conclusions.branch_followed),
+    Criterion("independent relations", "manifold", "proved", conclusions.manifold),
+    Criterion("rigid to first order", "manifold", "proved", conclusions.orbit),
+    Criterion("zero along a curve", "manifold", "probable", conclusions.whole_manifold),
+    Criterion("flat along a curve", "manifold", "undecided", conclusions.flat),
+    Criterion("isolated zero of one variable", "zero", "proved", conclusions.isolated_zero),
+    Criterion("indefinite form", "signs", "proved", conclusions.indefinite),
+    Criterion("definite form", "signs", "proved", conclusions.definite),
+    Criterion("definite combination", "signs", "proved", conclusions.prestress_stable),
+    Criterion("least along a motion", "signs", "probable", conclusions.least_along_a_motion),
+    Criterion("change of sign", "signs", "probable", conclusions.changing_sign),
+    Criterion("critical branch", "signs", "probable", conclusions.critical_branch),
+    Criterion("branch followed", "signs", "numeric", conclusions.branch_followed),
 )
-#: The criteria that conclude that the set is a manifold, or that this is undecided.
-OF_MANIFOLDS = CRITERIA[:4]
-#: The criteria that use signs, which may differ for other values of parameters.
-OF_SIGNS = CRITERIA[5:]
+OF_MANIFOLDS = tuple(criterion for criterion in CRITERIA if criterion.basis == "manifold")
+OF_SIGNS = tuple(criterion for criterion in CRITERIA if criterion.basis == "signs")
 
 
 # The local dimension by the table
