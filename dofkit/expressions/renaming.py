@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeVar, overload
 from dofkit.expressions.tree import Expr, children, sym
 
 #: The kinds of symbols that carry the name of a coordinate.
-MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
+OF_COORDINATES = frozenset({"coordinate", "velocity", "acceleration", "differential"})
 #: The kinds by which `coordinates_in` counts a coordinate: its value and its velocity.
 VALUED = frozenset({"coordinate", "velocity"})
 
@@ -57,7 +57,7 @@ class ExpressionShape(NamedTuple):
 def is_name(symbol: Expr) -> bool:
     """Return whether a shape replaces the name of ``symbol``: a coordinate's, or a parameter's beginning with ``_``."""
     kind, name = symbol.args
-    return kind in MOVING or (kind == "parameter" and name[0] == "_")
+    return kind in OF_COORDINATES or (kind == "parameter" and name[0] == "_")
 
 
 def shape_of(e: Expr) -> ExpressionShape:

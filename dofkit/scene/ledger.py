@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Hashable, Iterable
 from dataclasses import replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from dofkit.base.errors import Fault, TextError
 from dofkit.expressions.calculus import in_velocities, refuse_accelerations
-from dofkit.expressions.renaming import Renaming, shape_of
+from dofkit.expressions.renaming import OF_COORDINATES, Renaming, shape_of
 from dofkit.expressions.text import Names, UnknownNameError, parse_expression, parse_relations
-from dofkit.expressions.text.names import pattern_of, unknown_name
+from dofkit.expressions.text.names import Lookup, Meaning, unknown_name
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.expressions.vectors import Vec
 from dofkit.scene.fields import Vector, as_written, suggestion
@@ -56,6 +58,50 @@ class Ledger:
         """Record that no ``what`` called ``name`` is declared, with the nearest of the names ``declared`` as a hint."""
         hint = suggestion(name, tuple(declared), plural or f"{what}s") if len(self.faults) < MOST_HINTS else None
         self.fault(f"there is no {what} '{name}'", *where, hint=hint)
+
+
+#: Longer texts are parsed by themselves: they may be too long.
+_LONGEST = 1000
+_WORDS = re.compile(r"([A-Za-z][A-Za-z0-9_]*)", re.ASCII)
+_UNUSUAL = re.compile(r"[\\{}$]|[^\x20-\x7e]")
+#: Where a word goes on with a number: ``2e5``, ``0x1``.
+_IN_A_NUMBER = re.compile(r"[0-9.]$", re.ASCII)
+
+
+class Pattern(NamedTuple):
+    """A text without the names of its coordinates, and these, in the order in which they first occur."""
+
+    key: Hashable
+    names: tuple[str, ...]
+
+
+def pattern_of(text: str, lookup: Lookup) -> Pattern | None:
+    """Return the pattern of a text; None where it has to be read by itself."""
+    if len(text) > _LONGEST or _UNUSUAL.search(text):
+        return None
+    pieces: list[Hashable] = list(_WORDS.split(text))
+    places: dict[str, int] = {}
+    for i in range(1, len(pieces), 2):
+        word = str(pieces[i])
+        meaning = lookup.meaning(word)
+        if meaning is None or meaning.kind not in ("value", "motion", "function") or word == "d":
+            return None
+        if word[0] in "eExXoObB" and _IN_A_NUMBER.search(str(pieces[i - 1])):
+            return None
+        moving = _moving(meaning)
+        if moving is not None:
+            kind, name = moving
+            pieces[i] = (kind, places.setdefault(name, len(places)))
+    return Pattern(tuple(pieces), tuple(places))
+
+
+def _moving(meaning: Meaning) -> tuple[str, str] | None:
+    """Return (kind, coordinate) of a symbol that belongs to a coordinate, such as a velocity; None for others."""
+    e = meaning.expr
+    if e is None or e.op != "sym" or e.args[0] not in OF_COORDINATES:
+        return None
+    kind, name = e.args
+    return kind, name
 
 
 class ParsedTexts:

@@ -10,8 +10,8 @@ import pytest
 from dofkit.base.errors import TextError
 from dofkit.expressions.renaming import Renaming, shape_of
 from dofkit.expressions.text import Names, parse_relations
-from dofkit.expressions.text.names import pattern_of
 from dofkit.expressions.tree import Expr, coordinate, fn, parameter, velocity
+from dofkit.scene.ledger import pattern_of
 
 NAMES = Names(
     coordinates=frozenset({"x", "y", "z", "u", "v", "w", "d", "e5", "x1", "theta", "phi", "x0"}),

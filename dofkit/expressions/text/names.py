@@ -1,9 +1,9 @@
-"""Names: what a text may mention, what each word means, which names may be declared, and texts equal up to names."""
+"""Names: what a text may mention, what each word means, and which names may be declared."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import islice
@@ -11,7 +11,6 @@ from typing import Literal, NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.base.wording import closest
-from dofkit.expressions.renaming import MOVING
 from dofkit.expressions.text.characters import DOT, GREEK, LETTERS, MAX_NAME, TWO_DOTS, check_name_characters
 from dofkit.expressions.tree import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity
 
@@ -282,50 +281,6 @@ def why_invalid(name: str) -> str | None:
     if word in ELEMENTARY or word in OPERATORS:
         return f"`{name}` is reserved: it is the name of a function"
     return None
-
-
-#: Longer texts are read by themselves: they may be too long.
-LONGEST = 1000
-_WORDS = re.compile(r"([A-Za-z][A-Za-z0-9_]*)", re.ASCII)
-_UNUSUAL = re.compile(r"[\\{}$]|[^\x20-\x7e]")
-#: Where a word goes on with a number: ``2e5``, ``0x1``.
-_IN_A_NUMBER = re.compile(r"[0-9.]$", re.ASCII)
-
-
-class Pattern(NamedTuple):
-    """A text without the names of its coordinates, and these, in the order in which they first occur."""
-
-    key: Hashable
-    names: tuple[str, ...]
-
-
-def pattern_of(text: str, lookup: Lookup) -> Pattern | None:
-    """Return the pattern of a text; None where it has to be read by itself."""
-    if len(text) > LONGEST or _UNUSUAL.search(text):
-        return None
-    pieces: list[Hashable] = list(_WORDS.split(text))
-    places: dict[str, int] = {}
-    for i in range(1, len(pieces), 2):
-        word = str(pieces[i])
-        meaning = lookup.meaning(word)
-        if meaning is None or meaning.kind not in ("value", "motion", "function") or word == "d":
-            return None
-        if word[0] in "eExXoObB" and _IN_A_NUMBER.search(str(pieces[i - 1])):
-            return None
-        moving = _moving(meaning)
-        if moving is not None:
-            kind, name = moving
-            pieces[i] = (kind, places.setdefault(name, len(places)))
-    return Pattern(tuple(pieces), tuple(places))
-
-
-def _moving(meaning: Meaning) -> tuple[str, str] | None:
-    """Return (kind, coordinate) of a symbol that belongs to a coordinate, such as a velocity; None for others."""
-    e = meaning.expr
-    if e is None or e.op != "sym" or e.args[0] not in MOVING:
-        return None
-    kind, name = e.args
-    return kind, name
 
 
 _CONSTANT = "give the constant a name: `parameters: {C: real}`, and `... = C`"
