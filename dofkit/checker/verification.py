@@ -16,6 +16,7 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, problem_of_canonical, sha256_of
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError, Effort, refuse
+from dofkit.checker.whole_sets import everywhere
 
 LARGEST_TEXT, MOST_ENTRIES = 20_000_000, 20_000
 PARTS = ("relations", "points", "minors", "fields", "covers")
@@ -39,8 +40,7 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("scleronomic, catastatic", "timeless", labels.timeless),
     ("scleronomic, catastatic", "time-dependent", labels.time_dependent),
     ("exact", "exact, not exact", labels.exact), ("integral", "integral", labels.integral),
-    ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
-    ("/motion", "lagrange", motion),
+    ("/dof, /velocity_dof", "everywhere", everywhere), ("/motion", "lagrange", motion),
 )  # fmt: skip
 RULES = {
     (path, rule): rule_of for paths, rules, rule_of in TABLE for path in paths.split(", ") for rule in rules.split(", ")
