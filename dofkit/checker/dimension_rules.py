@@ -15,17 +15,16 @@ from dofkit.checker.trees import derivative, refuse
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """dof or velocity_dof near a point, between two bounds."""
+    """dof near a point, between two bounds; or that and velocity_dof, where one minor is both."""
     path, size = claim["path"], len(evidence.problem.coordinates)
-    most, least = claim.get("most", {**claim, "rule": "minor"}), claim.get("least", {**claim, "rule": "regular"})
-    refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
+    both = claim["rule"] == "regular"
+    most, least = ({**claim, "rule": "minor"}, claim) if both else (claim["most"], claim["least"])
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
     above = size - len(minor.rows) - (len(most["speeds"]) if most["rule"] == "isolated" else 0)
     if least["rule"] == "span":
-        point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
+        point, lower = span(evidence, {"minor": most["minor"], **least})
     else:
         other, more = LEAST[least["rule"]](evidence, least)
-        refuse(more and path != "/dof", "a bound of dof")
         point, lower = other.point, size - len(other.rows) + more
     refuse(point is not minor.point or above != lower, f"{lower} at least and {above} at most, or of two points")
     verified[f"{path} at"] = evidence.is_about(claim["about"], point)
