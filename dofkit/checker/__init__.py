@@ -16,8 +16,8 @@ Mechanisms, in the order of checking
        the `ring` of normal forms.
     3. `evidence` has what a certificate puts forward: points (`point`, with values in balls), minors of rows that hold
        there, velocity fields; `curves` what is isolated, crosses or is curved at a point.
-    4. `dimension_rules`, `label_rules` and `motion` are the rules: one function for each kind of claim, which returns
-       the value that it proves, and raises `CheckError` where a hypothesis fails.
+    4. `dimension_rules`, `whole_sets`, `label_rules` and `motion` are the rules: one function for each kind of claim,
+       which returns the value that it proves, and raises `CheckError` where a hypothesis fails.
     5. `verification` reads the certificate with care, bounded in work, and asks the rules. The format is described in
        ``FORMAT.md``.
 """

@@ -6,20 +6,11 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx
 
-from dofkit.checker.evidence import (
-    LONGEST_WORD,
-    CheckedEvidence,
-    CheckedMinor,
-    Told,
-    field_named,
-    independent,
-    involutive,
-    tangent,
-)
+from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, Told, field_named, independent, involutive, tangent
 from dofkit.checker.point import PRECISION, not_zero
 from dofkit.checker.trees import Tree, add, along, derivative, refuse, symbol
 
-HIGHEST_ORDER = 8
+HIGHEST_ORDER, MOST_DIRECTIONS = 8, 12
 
 
 def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tree: Tree, order: int) -> Any:
@@ -76,7 +67,7 @@ def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
     """
     (minor, zero, rate), names = left_over(evidence, claim), claim.get("fields", [])
     directions = claim["speeds"]
-    refuse(not 0 < len(directions) <= LONGEST_WORD, "a few directions are needed")
+    refuse(not 0 < len(directions) <= MOST_DIRECTIONS, "a few directions are needed")
     if len(directions) == 1:
         refuse(not not_zero(rate(claim["order"], *directions)), "the zero on the curve is not shown to be isolated")
     else:

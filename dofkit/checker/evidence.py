@@ -261,7 +261,7 @@ def admissible(
     return point, fields
 
 
-def span(evidence: CheckedEvidence, claim: Told, longest: int) -> tuple[CheckedPoint, int]:
+def span(evidence: CheckedEvidence, claim: Told, longest: int = LONGEST_WORD) -> tuple[CheckedPoint, int]:
     """A lower bound of the dimension of the orbit through a point, at a fixed time."""
     point, fields = admissible(evidence, claim, evidence.equations)
     words = [of_word(evidence, word, claim["fields"], longest) for word in claim["words"]]

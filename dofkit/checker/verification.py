@@ -16,6 +16,7 @@ from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, problem_of_canonical, sha256_of
 from dofkit.checker.relations import FAULTS, fault_text
 from dofkit.checker.trees import CheckError, Effort, refuse
+from dofkit.checker.whole_sets import everywhere
 
 LARGEST_TEXT, MOST_ENTRIES = 20_000_000, 20_000
 PARTS = ("relations", "points", "minors", "fields", "covers")
@@ -26,7 +27,7 @@ Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
 TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/consistent, /feasible", "point, regular", labels.consistent),
     ("/consistent", "nullstellensatz", labels.refuted), ("/conflicting", "conflict", labels.conflict),
-    ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds), ("circuit", "cofactors", numbers.circuit),
+    ("/dof", "squeeze, regular", numbers.bounds), ("/velocity_dof", "regular", numbers.bounds),
     ("/velocity_dof, /redundant_equations, /redundancies", "count", numbers.counted),
     ("/holonomic, /scleronomic, /singular, /generalized_coordinates", "count", numbers.counted),
     ("/instantaneous_dof", "rank", numbers.instantaneous), ("/redundant", "cofactors", numbers.redundant),
@@ -35,12 +36,11 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/generalized_coordinates", "minor, frobenius, isolated", numbers.generalized_coordinates),
     ("holonomic, holonomic_alone", "finite, inequality", labels.by_kind),
     ("holonomic, holonomic_alone", "integral, frobenius", labels.integrable),
-    ("holonomic, holonomic_alone", "bracket, curved", labels.bracket),
+    ("holonomic, holonomic_alone", "bracket, curved", labels.bracket), ("circuit", "cofactors", numbers.circuit),
     ("scleronomic, catastatic", "timeless", labels.timeless),
     ("scleronomic, catastatic", "time-dependent", labels.time_dependent),
     ("exact", "exact, not exact", labels.exact), ("integral", "integral", labels.integral),
-    ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
-    ("/motion", "lagrange", motion),
+    ("/dof, /velocity_dof", "everywhere", everywhere), ("/motion", "lagrange", motion),
 )  # fmt: skip
 RULES = {
     (path, rule): rule_of for paths, rules, rule_of in TABLE for path in paths.split(", ") for rule in rules.split(", ")

@@ -112,14 +112,12 @@ export class Rules {
 
   // -- bounds --------------------------------------------------------------------------------------------
 
-  most(bound, claim, kind) {
+  most(bound) {
     const minor = this.e.minor(bound.minor);
     if (bound.rule === "minor") {
-      refuse(kind === "dof" && minor.rows.some((r) => r.kind !== "finite"), "all rows are finite or integrals");
-    } else if (bound.rule === "frobenius") {
-      refuse(kind !== "dof", "frobenius bounds dof");
-      this.frobenius(bound, minor);
-    } else uncovered(`the bound ${bound.rule}`);
+      refuse(minor.rows.some((r) => r.kind !== "finite"), "all rows are finite or integrals");
+    } else if (bound.rule === "frobenius") this.frobenius(bound, minor);
+    else uncovered(`the bound ${bound.rule}`);
     return [this.e.n - minor.rows.length, minor.point];
   }
 
@@ -136,14 +134,13 @@ export class Rules {
     }
   }
 
-  least(bound, claim, kind, most) {
+  least(bound, claim, most) {
     if (bound.rule === "regular") {
       const minor = this.e.minor(bound.minor);
       this.e.account(minor, this.e.relations, claim.covers);
       return [this.e.n - minor.rows.length, minor.point];
     }
     if (bound.rule !== "span") return uncovered(`the bound ${bound.rule}`);
-    refuse(kind === "velocity_dof" && list(bound.words).some((w) => w.length > 1), "a bracket is no velocity");
     const { point, vectors, timed } = this.span(bound, this.e.relations, list(bound.words), bound.columns, claim.covers);
     this.parameters(bound.minor, claim.covers, most);
     return [vectors - (timed ? 1 : 0), point];
@@ -245,9 +242,10 @@ export class Rules {
     refuse(!whole(claim.value) || claim.value < 0, "a number is needed");
     if (claim.rule === "everywhere") return this.everywhere(claim, kind);
     if (claim.rule === "squeeze") {
-      const most = this.most(claim.most, claim, kind);
+      refuse(kind !== "dof", "velocities are not squeezed");
+      const most = this.most(claim.most);
       const minor = this.e.minor(claim.most.minor);
-      const least = this.least(claim.least, claim, kind, minor);
+      const least = this.least(claim.least, claim, minor);
       refuse(most[1] !== least[1], "the bounds are at two points");
       refuse(most[0] !== claim.value || least[0] !== claim.value, "the bounds are others");
       return { place: this.about(claim, most[1]) };
@@ -344,8 +342,8 @@ export class Rules {
       if (!placed.every((r) => this.total(r.tree))) uncovered("relations that may have no value");
     }
     if (kind === "dof" && forms.length) {
-      const most = this.most(claim.most ?? {}, claim, kind);
-      const least = this.least(claim.least ?? {}, claim, kind, this.e.minor(claim.most.minor));
+      const most = this.most(claim.most ?? {});
+      const least = this.least(claim.least ?? {}, claim, this.e.minor(claim.most.minor));
       refuse(most[1] !== least[1], "the bounds are at two points");
       refuse(most[0] !== claim.value || least[0] !== claim.value, "the bounds are others");
       const finite = this.e.n - rank + lone.length;

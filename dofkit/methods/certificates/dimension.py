@@ -11,9 +11,9 @@ from operator import itemgetter
 from flint import arb
 
 from dofkit.checker.curves import HIGHEST_ORDER, along_curve
-from dofkit.checker.dimension_rules import HIGHEST_DEGREE, degree
 from dofkit.checker.geometry import determinant, dot
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, operands, symbol, times
+from dofkit.checker.whole_sets import HIGHEST_DEGREE, degree
 from dofkit.methods.certificates.context import Context, Standing, Told
 from dofkit.methods.certificates.fields import backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import least_step
