@@ -148,17 +148,16 @@ def cam(world: Surroundings, entry: Entry) -> Iterator[Tree]:
 
 def link(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """|A - B|^2 - length^2, times the square of the denominator of A - B."""
-    first, second = map(world.point, entry["between"])
-    yield distance(world, first, second, world.length(entry))
+    yield distance(world, world.length(entry), *map(world.point, entry["between"]))
 
 
 def rigid(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """The distance of every pair of particles."""
     for first, second in combinations([world.particles[str(member)] for member in entry["members"]], 2):
-        yield distance(world, first, second, None)
+        yield distance(world, None, first, second)
 
 
-def distance(world: Surroundings, first: MaterialPoint, second: MaterialPoint, prescribed: Tree | None) -> Tree:
+def distance(world: Surroundings, prescribed: Tree | None, first: MaterialPoint, second: MaterialPoint) -> Tree:
     """The relation of a distance that is given, drawn or generic."""
     drawn = first.start and second.start and square(less(first.start, second.start))
     squared = prescribed**2 if prescribed else drawn or world.fresh("square")
@@ -244,7 +243,7 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
     equations: dict[str, Callable[[], Iterable[Tree]]] = {
         "turn": lambda: parallel(first, second),
         "point": lambda: apart(first.point(place), moved)[0],
-        "axis": lambda: (dot(first.carry(u), second.carry(n)) for u in across),
+        "axis": lambda: (aligned(first, second, n, n, u) for u in across),
         "line": lambda: (first.offset(moved, place, u) for u in across),
         "plane": lambda: [first.offset(moved, place, n)],
         "cross": lambda: [dot(first.carry(a), second.carry(b)) for a, b in [map(world.vector, entry["axes"])]],
@@ -259,14 +258,17 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
         elif not across:
             yield second.angle - first.angle - law
         else:
-            sine, cosine = turned(first, second, n, across[0])
-            yield sine * call("cos", law) - cosine * call("sin", law)
+            u, w, s, c = across[0], cross(n, across[0]), call("sin", law), call("cos", law)
+            start = tuple(map(add, scaled(c, u), scaled(s / length(n), w)))
+            yield aligned(first, second, start, u, less(scaled(c, w), scaled(length(n) * s, u)))
 
 
-def turned(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> tuple[Tree, Tree]:
-    """The sine and cosine of the angle about n, times one positive factor; u is across n."""
-    now = second.carry(u)
-    return dot(first.carry(cross(n, u)), now), length(n) * dot(first.carry(u), now)
+def aligned(first: CheckedFrame, second: CheckedFrame, start: Vector, now: Vector, across: Vector) -> Tree:
+    """What is 0 where ``now`` of the second body is ``start``, as long, of the first, and not where it is reversed."""
+    g, h, moved = first.cayley, second.cayley, second.carry(now)
+    if g and h and start is now:  # the vector of the quaternion (1, -g) (1, h)
+        return dot(less(less(h, g), cross(g, h)), across)
+    return dot(first.carry(across), moved) / (first.under * second.under * square(now) + dot(first.carry(start), moved))
 
 
 def displaced(frame: CheckedFrame, point: MaterialPoint, place: Vector, n: Vector) -> Tree:
@@ -300,7 +302,8 @@ def measured(world: Surroundings, written: str) -> Tree:
 
 def turn_about(first: CheckedFrame, second: CheckedFrame, n: Vector, across: Sequence[Vector]) -> Tree:
     """The angle of the second body against the first about n."""
-    return call("atan2", *turned(first, second, n, across[0]))
+    u, now = across[0], second.carry(across[0])
+    return call("atan2", dot(first.carry(cross(n, u)), now), length(n) * dot(first.carry(u), now))
 
 
 def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:

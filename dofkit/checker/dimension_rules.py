@@ -188,7 +188,9 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
     near it. Where every relation is linear or has a generic length that no other has, all ranks are constant near
     almost every point, and there is nothing to check.
     """
-    if not others or (not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite)):
+    slopes = ((n, [evidence.slope(n, q) for q in evidence.problem.coordinates]) for n in evidence.finite)
+    general = (None not in map(evidence.ring.rational, row) or evidence.own_symbol(n) for n, row in slopes)
+    if not others or (not evidence.moving and all(general)):
         return
     rates = (step.target for step in evidence.consequences if step.is_rate and {*step.sources} <= {*minor.rows})
     rows = {*minor.rows, *rates}
@@ -202,11 +204,6 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
         plain = any(not any(tree.symbols for tree in trees) for trees in used)
         single = len(others) == 1 and any(all(not_zero(minor.point.value(t)) for t in trees) for trees in used)
         refuse(not plain and not single, f"`{name}` does not depend on the rows by numbers")
-
-
-def _is_general(evidence: CheckedEvidence, name: str) -> bool:
-    slopes = (derivative(evidence.relation(name).tree, q) for q in evidence.problem.coordinates)
-    return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
 def verified_rank(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, number: str = "/dof") -> int:

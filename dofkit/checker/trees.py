@@ -229,10 +229,9 @@ def substituted(tree: Tree, values: Mapping[str, Tree], functions: Choices | Non
             return values.get(str(node.value), node) if node.head == "symbol" else node
         return MAKERS[node.head](*below) if node.head in MAKERS else Tree(node.head, below, node.value, node.orders)
 
-    def unchanged(node: Tree) -> Tree | None:
-        return node if node.symbols.isdisjoint(values) and not (functions and node.applied) else None
-
-    return folded(tree, replaced, unchanged)
+    return folded(
+        tree, replaced, lambda n: n if n.symbols.isdisjoint(values) and not (functions and n.applied) else None
+    )
 
 
 @lru_cache(maxsize=4096)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from flint import arb
 
 from dofkit.classification.turned_coordinates import ANYWHERE, angle_rates
 from dofkit.configuration.at_reference import float_point
-from dofkit.exact.matrices.dense import complement, damped, dot, largest, pivoted, rank, unit_rows
+from dofkit.exact.matrices.dense import Pivoting, complement, damped, dot, largest, pivoted, rank, unit_rows
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
@@ -40,7 +41,11 @@ def nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]
     chart = make_chart(block, setting)
     reference = chart.setting.reference
     start = {} if reference is None else float_point(chart, reference) or {}
-    at_reference = _tangent_at_reference(chart, start, dof)
+    at_reference = None
+    order = _independent(chart, start, dof).order if start else []
+    if len(order) == len(block.coordinates) - dof:  # the set is regular there, and that of these relations
+        chart = replace(chart, nodes=tuple(chart.nodes[k] for k in order))
+        at_reference = _tangent(chart, start, (), dof)
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.setting.positive, chart.symbols)
     for seed, away in enumerate(AWAY):
         symbols = search.start(seed, {})
@@ -59,14 +64,6 @@ def nearby(block: Block, dof: int, setting: Setting, turning: Sequence[Rotation]
             chosen = _columns(chart, _in_angles(chart, symbols, secants, turning), SPREAD)
             return chosen if len(chosen) == dof else None
     return None
-
-
-def _tangent_at_reference(chart: Chart, start: dict[Expr, float], dof: int) -> Any:
-    """Return a basis of the tangent space at the reference, in Gibbs vectors; None if the set is not regular there."""
-    if not start:
-        return None
-    tangent = _tangent(chart, start, (), dof)
-    return tangent if len(tangent) == dof else None
 
 
 def _regular_columns(chart: Chart, near: Any, at_reference: Any, turning: Sequence[Rotation]) -> list[str] | None:
@@ -126,16 +123,19 @@ def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: i
     return False
 
 
-def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation], dof: int) -> Any:
-    """Return a basis of the tangent space at fixed time over the block's coordinates, as rows; angles are Euler's."""
+def _independent(chart: Chart, symbols: dict[Expr, float], dof: int) -> Pivoting:
+    """Return which relations are independent at a point, with a basis of their rows, over the block's coordinates."""
     point = FloatPoint(symbols)
-    at = values(chart.ring, point)
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
-    rows = jacobian(chart.ring, at, point, chart.nodes, columns, 0.0)
+    rows = jacobian(chart.ring, values(chart.ring, point), point, chart.nodes, columns, 0.0)
     j = unit_rows([list(map(float, row)) for row in rows], ZERO)
     regular = len(j) == len(columns) - dof and len(pivoted(j, FAINT).order) == len(j)
-    basis = pivoted(j, FAINT if regular else ZERO).basis
-    return _in_angles(chart, symbols, complement(basis, len(columns)), turning)
+    return pivoted(j, FAINT if regular else ZERO)
+
+
+def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation], dof: int) -> Any:
+    """Return a basis of the tangent space at fixed time over the block's coordinates, as rows; angles are Euler's."""
+    return _in_angles(chart, symbols, complement(_independent(chart, symbols, dof).basis, chart.coordinates), turning)
 
 
 def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:

@@ -485,13 +485,20 @@ function gear(w, e) {
   return [sub(second, mul(w.expression(e.ratio), first))];
 }
 
-/** The sine and cosine of the angle of the second body against the first about n, times one positive factor. */
-function turned(first, second, n, u) {
-  const now = second.carry(u);
-  return [dot(first.carry(cross(n, u)), now), mul(length(n), dot(first.carry(u), now))];
+/** What is 0 where `now` of the second body is `start`, as long, of the first, and not where it is reversed. */
+function aligned(first, second, start, now, across) {
+  const [g, h, moved] = [first.cayley, second.cayley, second.carry(now)];
+  if (g && h && start === now) return dot(less(less(h, g), cross(g, h)), across);
+  const full = mul(first.under, second.under, square(now));
+  return mul(dot(first.carry(across), moved), tr.inverse(add(full, dot(first.carry(start), moved))));
 }
 
-const turnAbout = (first, second, n, across) => call("atan2", ...turned(first, second, n, across[0]));
+/** The angle of the second body against the first about n. */
+function turnAbout(first, second, n, [u]) {
+  const now = second.carry(u);
+  return call("atan2", dot(first.carry(cross(n, u)), now), mul(length(n), dot(first.carry(u), now)));
+}
+
 const displaced = (frame, point, place, n) => mul(frame.offset(point, place, n), tr.inverse(mul(frame.under, point.under, length(n))));
 
 /** No turn of one body against the other. */
@@ -516,7 +523,7 @@ function joint(keeps) {
     const equations = {
       turn: () => parallel(first, second),
       point: () => apart(first.point(place), moved)[0],
-      axis: () => across.map((u) => dot(first.carry(u), second.carry(n))),
+      axis: () => across.map((u) => aligned(first, second, n, n, u)),
       line: () => across.map((u) => first.offset(moved, place, u)),
       plane: () => [first.offset(moved, place, n)],
       cross: () => [dot(first.carry(w.vector(e.axes[0])), second.carry(w.vector(e.axes[1])))],
@@ -531,8 +538,9 @@ function joint(keeps) {
       if (keeps === "turn line" || keeps === "axis line") found.push(sub(displaced(first, moved, place, n), law));
       else if (!across.length) found.push(sub(sub(second.angle, first.angle), law));
       else {
-        const [sine, cosine] = turned(first, second, n, across[0]);
-        found.push(sub(mul(sine, call("cos", law)), mul(cosine, call("sin", law))));
+        const [u, w, s, c] = [across[0], cross(n, across[0]), call("sin", law), call("cos", law)];
+        const start = scaled(c, u).map((x, i) => add(x, mul(s, tr.inverse(length(n)), w[i])));
+        found.push(aligned(first, second, start, u, less(scaled(c, w), scaled(mul(length(n), s), u))));
       }
     }
     return found;

@@ -16,12 +16,12 @@ from dofkit.expressions.calculus import diff, linear_terms, substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import why_invalid
 from dofkit.expressions.tree import MINUS_ONE, ONE, TIME, ZERO, Expr, coordinate, mul
-from dofkit.expressions.vectors import difference, dot, is_zero, length
+from dofkit.expressions.vectors import difference, dot, length
 from dofkit.scene.constraints.base import ConstraintBase, root, with_values
-from dofkit.scene.constraints.joint_parts import JointGeometry, Measure
+from dofkit.scene.constraints.joint_parts import JointGeometry, Measure, half_angle
 from dofkit.scene.constraints.joints import Driven
 from dofkit.scene.fields import Text, untagged
-from dofkit.scene.frames import Frame, relative
+from dofkit.scene.frames import Frame
 from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.symbols import Symbol
@@ -229,11 +229,7 @@ class MeasuredJoint(NamedTuple):
 
     def half(self) -> tuple[Expr, Expr] | None:
         """Return (cosine, sine) of half the angle, times a positive factor; None without two Gibbs vectors."""
-        turned = relative(self.first, self.second) if self.turns_in_space else None
-        if turned is None:
-            return None
-        axis = self.geometry.axis.vector
-        return mul(turned[0], length(axis)), dot(turned[1], axis)
+        return half_angle(self.first, self.second, self.geometry) if self.turns_in_space else None
 
 
 def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
@@ -280,18 +276,15 @@ def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:
     if not factors or sum(map(abs, factors)) > MOST_TURNS:
         return None
     total = ONE, ZERO
-    for half, k in zip(halves.values(), factors, strict=True):
-        if half is not None:
-            factor = half if k > 0 else (half[0], mul(MINUS_ONE, half[1]))
-            for _ in range(abs(k)):
-                total = _product(total, factor)
+    for half, k in zip(filter(None, halves.values()), factors, strict=True):
+        factor = half if k > 0 else (half[0], mul(MINUS_ONE, half[1]))
+        for _ in range(abs(k)):
+            total = _product(total, factor)
     return total[1]
 
 
 def _product(first: tuple[Expr, Expr], second: tuple[Expr, Expr]) -> tuple[Expr, Expr]:
     """Return the product of two complex numbers, each given as (real part, imaginary part)."""
-    if is_zero((first[1],)):
-        return mul(first[0], second[0]), mul(first[0], second[1])
     imaginary = mul(first[0], second[1]) + mul(first[1], second[0])
     return difference(mul(first[0], second[0]), mul(first[1], second[1])), imaginary
 

@@ -19,7 +19,7 @@ from typing import Literal, NamedTuple
 from dofkit.exact.matrices import sparse as rows
 from dofkit.expressions.calculus import longest_number
 from dofkit.expressions.tree import HALF, MINUS_ONE, PI, ZERO, Expr, add, fn, mul
-from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
+from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, square, unit
 from dofkit.scene.constraints.base import component_relations
 from dofkit.scene.constraints.places import along
 from dofkit.scene.frames import Frame, between, relative
@@ -94,14 +94,16 @@ def _axis(first: Frame, second: Frame, geometry: JointGeometry) -> Iterator[Rela
     """Yield 2 relations that the axis n has the same direction in both bodies, one for each u perpendicular to n.
 
     With Gibbs vectors for both rotations v.u = 0 (no rotation about u), with the vector part v of the quaternion of
-    R1^T R2; otherwise (R1 n).(R2 u) = 0 (no rotation about n x u).
+    R1^T R2; otherwise (R1 n).(R2 u) / (|n|^2 + (R1 n).(R2 n)) = 0 (no rotation about n x u, undefined if reversed).
     """
     for axis in geometry.axes:
         turned = relative(first, second)
         carried = first.carry(axis.vector) if turned is None else ()
         for across in axis.across:
             if turned is None:
-                yield Relation(dot(carried, second.carry(across)), part="axis", vector=cross(axis.vector, across))
+                full = mul(first.under, second.under, square(axis.vector))
+                tilt = dot(carried, second.carry(across)) / add(full, dot(carried, second.carry(axis.vector)))
+                yield Relation(tilt, part="axis", vector=cross(axis.vector, across))
             else:
                 yield Relation(dot(turned[1], across), part="axis", vector=across)
 
@@ -271,28 +273,34 @@ def angle_of(first: Frame, second: Frame, geometry: JointGeometry) -> Expr:
     """Return the angle of the second body relative to the first, in space about the shared axis, right-handed."""
     if not geometry.axes:
         return difference(second.angle, first.angle)
-    n = geometry.axis.vector
-    turned = relative(first, second)
-    if turned is not None:
-        return 2 * fn("atan", dot(turned[1], n) / (turned[0] * length(n)))
+    half = half_angle(first, second, geometry)
+    if half is not None:
+        return 2 * fn("atan", half[1] / half[0])
     return fn("atan2", *_sine_and_cosine(first, second, geometry.axis))
+
+
+def half_angle(first: Frame, second: Frame, geometry: JointGeometry) -> tuple[Expr, Expr] | None:
+    """Return (cosine, sine) of half the angle, times a positive factor; None without two Gibbs vectors."""
+    n, turned = geometry.axis.vector, relative(first, second)
+    return None if turned is None else (mul(turned[0], length(n)), dot(turned[1], n))
 
 
 def _angle_law(first: Frame, second: Frame, geometry: JointGeometry, law: Expr) -> Expr:
     """Return an expression that is 0 if the angle of the second body relative to the first is the law f.
 
-    In the plane theta2 - theta1 - f. In space, with the axis n, v.n cos(f/2) - s |n| sin(f/2), or with w = n x u, u
-    perpendicular to n: (R1 w).(R2 u) cos f - |n| (R1 u).(R2 u) sin f.
+    In the plane theta2 - theta1 - f. In space, with the axis n, v.n cos(f/2) - s |n| sin(f/2), or the tangent
+    (S cos f - C sin f) / (k + C cos f + S sin f) of half the difference, with k times the angle's sine S and cosine C.
     """
     if not geometry.axes:
         return difference(angle_of(first, second, geometry), law)
-    turned = relative(first, second)
-    if turned is None:
-        sine, cosine = _sine_and_cosine(first, second, geometry.axis)
-    else:
-        n, law = geometry.axis.vector, mul(HALF, law)
-        sine, cosine = dot(turned[1], n), mul(turned[0], length(n))
-    return difference(mul(sine, fn("cos", law)), mul(cosine, fn("sin", law)))
+    half = half_angle(first, second, geometry)
+    if half is not None:
+        s, c = fn("sin", mul(HALF, law)), fn("cos", mul(HALF, law))
+        return difference(mul(half[1], c), mul(half[0], s))
+    sine, cosine = _sine_and_cosine(first, second, geometry.axis)
+    s, c = fn("sin", law), fn("cos", law)
+    full = mul(first.under, second.under, length(geometry.axis.vector), square(geometry.axis.across[0]))
+    return difference(mul(sine, c), mul(cosine, s)) / add(full, mul(cosine, c), mul(sine, s))
 
 
 def _sine_and_cosine(first: Frame, second: Frame, axis: Direction) -> tuple[Expr, Expr]:
