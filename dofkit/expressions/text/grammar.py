@@ -127,7 +127,7 @@ class TextReader:
             first, second = self.source(0, token.start), self.source(token.end, len(self.text))
             hint = f"give each its own text: `{first}` and `{second}`"
             self.fail("this comma separates two relations, and a text holds one", token, hint)
-        hint = "write decimals with a point; a comma stands between the arguments of a function"
+        hint = "write decimals with a point, and one relation for each component of a vector"
         self.fail("a comma cannot stand here", token, hint)
 
 

@@ -337,11 +337,12 @@ FOREIGN: dict[str, str] = {
     "not": "write `=`, `<=`, `>=`, `<` or `>`", "in": "write a chain `0 <= x <= L`", "is": "write `=`",
     "lambda": "a text is mathematics, not code", "True": "write an equation", "False": "write an equation",
     "None": "write an equation, or leave the field out", "nan": "write a number", "NaN": "write a number",
-    "inf": "leave that bound out", "oo": "leave that bound out",
+    "inf": "leave that bound out", "oo": "leave that bound out", "tg": "write `tan`, or `t g` for the product",
 }  # fmt: skip
 #: What is written in place of a letter that people use for something else.
 _ADVICE = {"e": "write `E` for Euler's number, or `exp(x)` for its powers",
-           "d": "write the differential of `x` as `dx`, its velocity as `xdot`"}  # fmt: skip
+           "d": "write the differential of `x` as `dx`, its velocity as `xdot`, and d/dt (x y) as `diff(x y, t)`",
+           **dict.fromkeys(("dot", "ddot"), "write the velocity of `x` as `xdot`")}  # fmt: skip
 #: Names of units: a number has none here.
 UNITS = frozenset({
     "km", "m", "dm", "cm", "mm", "um", "nm", "in", "inch", "ft", "kg", "g", "mg", "lb", "s", "ms", "min", "h", "Hz",
