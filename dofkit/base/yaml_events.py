@@ -232,6 +232,10 @@ class ComposedText:
             self._give_up(event, "a key must be a text", "write 'key: value'")
         top = self._stack[-1]
         top.key, top.key_at = key, event.start_mark.index
+        if re.fullmatch(r",\d", self._text[max(0, top.key_at - 1) : top.key_at + 1]):
+            self._fault(event, f"the comma before '{key}' begins another entry", "write decimals with a point")
+        if key == "<<":
+            self._fault(event, "the merge key '<<' is not read", "write the keys out")
         top.skipping = key in top.value
         if top.skipping:
             self._fault(event, f"the key '{key[:60]}' is written twice", "keep one of the two")

@@ -29,7 +29,7 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u
 
 def complaint(file: str, faults: tuple[Fault, ...], document: Document | None, coloured: bool = False) -> str:
     """Return the faults of ``file`` as lines, with the faulty lines of ``document`` if it is given."""
-    paint = _painted if coloured else _plain
+    paint = _painted if coloured else lambda text, style: text
     blocks, seen = [], set[str | None]()
     for fault in faults[:MOST_SHOWN]:
         blocks.append(_block(file, fault if fault.see not in seen else replace(fault, see=None), document, paint))
@@ -58,11 +58,6 @@ def _fault_lines(fault: Fault) -> Iterator[str]:
         yield f"    hint: {safe(fault.hint)}"
     if fault.see:
         yield f"    see: dofkit explain {fault.see}"
-
-
-def _plain(text: str, style: Style) -> str:
-    del style
-    return text
 
 
 def _painted(text: str, style: Style) -> str:
