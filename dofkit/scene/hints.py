@@ -141,10 +141,10 @@ def _required(cls: type[ConstraintBase]) -> set[str]:
 def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return the constraint type that ``word`` most likely means, by the keys of ``entry``; None if there is none."""
     words = {kind: (kind, *cls.words().synonyms, *cls.words().understood) for kind, cls in TYPES.items()}
-    known, keys = {name for names in words.values() for name in names}, entry.keys() - {"name", "type"}
+    terms, keys = {name for names in words.values() for name in names}, entry.keys() - {"name", "type"}
     fitting = {name for kind in words if keys & TYPES[kind].model_fields.keys() for name in words[kind]}
     text = word.lower() if isinstance(word, str) else ""
-    near = next((part for part in re.split(r"\W+", text) if part in known), None) or nearest(text, fitting or known)
+    near = next((part for part in re.split(r"\W+", text) if part in terms), None) or nearest(text, fitting or terms)
     fields = {kind: TYPES[kind].model_fields for kind, names in words.items() if near in names}
     return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
 
