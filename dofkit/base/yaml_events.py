@@ -200,7 +200,7 @@ class ComposedText:
                 value = plain(text)
                 start, end = event.start_mark, event.end_mark
                 entry = start.line < end.line and self._text.startswith("- ", start.index - 2)
-                hyphen = rf"[\r\n] {{0,{start.column - 1}}}- |[=<>].*[\r\n] *- .*[=<>]"
+                hyphen = rf"[\r\n] {{0,{start.column - 1}}}- |[=<>][^=<>\r\n]*[\r\n]+ *- [^=<>\r\n]*[=<>]"
                 if entry and re.search(hyphen, self._text[start.index : end.index]):
                     hint = "write it below the '- ' of the entry before, or put the whole text in double quotes"
                     raise TextError("this text continues in a line that begins with a hyphen", hint=hint)
