@@ -200,7 +200,8 @@ class ComposedText:
                 value = plain(text)
                 start, end = event.start_mark, event.end_mark
                 entry = start.line < end.line and self._text.startswith("- ", start.index - 2)
-                if entry and re.search(rf"[\r\n] {{0,{start.column - 1}}}- ", self._text[start.index : end.index]):
+                hyphen = rf"[\r\n] {{0,{start.column - 1}}}- |[=<>][^=<>\r\n]*[\r\n]+ *- [^=<>\r\n]*[=<>]"
+                if entry and re.search(hyphen, self._text[start.index : end.index]):
                     hint = "write it below the '- ' of the entry before, or put the whole text in double quotes"
                     raise TextError("this text continues in a line that begins with a hyphen", hint=hint)
             except TextError as error:
@@ -231,6 +232,10 @@ class ComposedText:
             self._give_up(event, "a key must be a text", "write 'key: value'")
         top = self._stack[-1]
         top.key, top.key_at = key, event.start_mark.index
+        if re.fullmatch(r",\d", self._text[max(0, top.key_at - 1) : top.key_at + 1]):
+            self._fault(event, f"the comma before '{key}' begins another entry", "write decimals with a point")
+        if key == "<<":
+            self._fault(event, "the merge key '<<' is not read", "write the keys out")
         top.skipping = key in top.value
         if top.skipping:
             self._fault(event, f"the key '{key[:60]}' is written twice", "keep one of the two")

@@ -79,17 +79,12 @@ def linear_terms(e: Expr) -> dict[Expr, Fraction]:
     for term in total.args if total.op == "add" else (total,):
         factor, base = ex.number_and_rest(term)
         if factor:
-            base = sorted_product(base)
+            base = Expr("mul", tuple(sorted(base.args, key=repr))) if base.op == "mul" else base  # in a canonical order
             if base in terms:
                 factor += terms[base]
                 cancels = cancels or not factor
             terms[base] = factor
     return {base: factor for base, factor in terms.items() if factor} if cancels else terms
-
-
-def sorted_product(e: Expr) -> Expr:
-    """Return the product ``e`` with its factors in a canonical order; any other expression unchanged."""
-    return Expr("mul", tuple(sorted(e.args, key=repr))) if e.op == "mul" else e
 
 
 def sorted_sum(e: Expr) -> tuple[tuple[str, Fraction], ...]:

@@ -292,7 +292,7 @@ def _repeats(assignment: Assignment) -> Iterator[Fault]:
 
 
 def _error(faults: tuple[Fault, ...], document: Document | None) -> AssignmentError:
-    faults = tuple(fault if fault.hint else with_hint(fault) for fault in faults)
+    faults = tuple(fault if fault.hint else with_hint(fault, {}) for fault in faults)
     if document is None:
         return AssignmentError(faults)
     placed = []

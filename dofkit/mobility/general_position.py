@@ -201,7 +201,8 @@ def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
         return None
     of, places = _places(block.coordinates, setting)
     links_of = {i: iter(setting.links.get(i, ())) for i in {row.constraint for row in block.rows}}
-    pairs, lengths, free = list[Pair](), set[Expr](), _unprescribed(setting)
+    pairs, lengths = list[Pair](), set[Expr]()
+    free = frozenset(setting.generic) - setting.pose.keys()  # lengths (and other geometry) that are not given
     prescribed = []
     for row in block.rows:
         pair = next(links_of[row.constraint], None)
@@ -217,11 +218,6 @@ def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
     if not whole or {of[c] for c in block.coordinates} != {end for pair in pairs for end in pair}:
         return None
     return None if prescribed and linkage(prescribed, setting.dimension).redundant else pairs
-
-
-def _unprescribed(setting: Setting) -> frozenset[Expr]:
-    """Return the parameters for lengths (and other geometry) that are not given."""
-    return frozenset(setting.generic) - setting.pose.keys()
 
 
 def _only(e: Expr, ends: set[str]) -> Expr | None:

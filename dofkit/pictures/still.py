@@ -8,6 +8,8 @@ from html import escape
 
 import numpy as np
 
+from dofkit.base.errors import ArgumentError
+from dofkit.base.wording import description_of
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
 from dofkit.pictures.directions import coordinate_sketch, phase_sketch
@@ -111,6 +113,8 @@ def draw(scene: SceneLike, report: Report | None = None) -> Picture:
 
 def with_report(scene: SceneLike, report: Report | None) -> tuple[Scene, Report]:
     """Return (scene, report), reading the scene and computing the report if necessary."""
+    if report is not None and not isinstance(report, Report):
+        raise ArgumentError(f"a report is a Report, not {description_of(report)}; `save(path)` writes a picture")
     loaded = load(scene)
     return loaded, classify(loaded) if report is None else report
 

@@ -156,9 +156,9 @@ def _missing(name: str, path: Path) -> Fault:
     if "\n" in name:
         message = "this is the text of a scene, not a path or a name"
         return Fault(message, hint="read a text with dofkit.loads(text)")
-    in_folder = path.parent != Path(".") or path.suffix in (".yaml", ".yml", ".json")
+    in_folder = path.parent != Path(".") or path.suffix != ""
     neighbours = _files_beside(path)
-    near = nearest_title(path.name, neighbours)
+    near = nearest_title(path.name, neighbours if in_folder else [*catalog_names(), *neighbours])
     message = f"there is no file '{_brief(name)}'"
     if not in_folder:
         message += ", and no scene of that name in the catalog"

@@ -58,7 +58,7 @@ def suggestion(word: object, candidates: Sequence[str], what: str) -> str:
         return f"did you mean '{near}'?"
     if not candidates:
         return f"there are no {what}"
-    listed = ", ".join(list(candidates)[:12]) + (", ..." if len(candidates) > 12 else "")
+    listed = ", ".join(list(candidates)[:20]) + (", ..." if len(candidates) > 20 else "")
     return f"the {what} are {listed}"
 
 
@@ -249,9 +249,8 @@ def _message(detail: Mapping[str, Any], owner: str, keys: Sequence[str]) -> tupl
         return f"{_NEEDS[kind]} is needed, not {in_words(detail['input'])}", None
     if kind == "literal_error":
         choices = re.findall(r"'([^']*)'", str(context["expected"]))
-        return f"{in_words(detail['input'])} is not one of {context['expected']}", suggestion(
-            detail["input"], choices, "choices"
-        )
+        message = f"{in_words(detail['input'])} is not one of {context['expected']}"
+        return message, suggestion(detail["input"], choices, "choices")
     if kind in ("too_short", "too_long"):
         bound = int(context.get("min_length", context.get("max_length", 0)))
         word = "at least" if kind == "too_short" else "at most"
@@ -340,9 +339,8 @@ class TaggedUnion:
         if isinstance(value, (dict, Mapping)):
             word = value.get(self.key)
             if word is not None and not isinstance(word, str):
-                raise fault_at(
-                    (self.key,), f"the `{self.key}` is a text, not {in_words(word)}", self.advise(None, value)
-                )
+                message = f"the `{self.key}` is a text, not {in_words(word)}"
+                raise fault_at((self.key,), message, self.advise(None, value))
             if word is None:
                 hint = self.advise(None, value) or self.listing + ", ".join(self.allowed)
                 raise fault_error(f"{self.called} needs its `{self.key}`", hint)

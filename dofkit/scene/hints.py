@@ -99,6 +99,8 @@ def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
     near = nearest("type", map(str, entry.keys() - {"type"})) if word is None else None
     if near is not None:
         return f"write `type` in place of `{near}`"
+    if word is None and _is_named_text(entry):
+        return "; ".join(f'write `{{name: {name}, text: "{text}"}}`' for name, text in entry.items())
     kinds = likely_types(word, entry)
     if len(kinds) == 1:
         return f"did you mean '{kinds[0]}'?"
@@ -113,12 +115,19 @@ def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
     if word is None:
         types_as_keys = (key for key in entry if key not in _ALL_FIELDS and meant_type(key, {}))
         word = next((entry[key] for key in entry if nearest("type", [str(key)])), next(types_as_keys, None))
+        word = Equation.kind() if _is_named_text(entry) else word
     meant, keys = meant_type(word, entry), [str(key) for key in entry if str(key).lower() not in ("type", "name")]
     if meant or not keys:
         return [meant] if meant else []
     fields = {kind: cls.model_fields.keys() for kind, cls in TYPES.items()}
     having = [kind for kind, cls in TYPES.items() if _required(cls) <= {*keys} <= fields[kind]]
     return having or [kind for kind in TYPES if all(meant_key(key, tuple(fields[kind])) for key in keys)]
+
+
+def _is_named_text(entry: Mapping[str, Any]) -> bool:
+    """Return whether an entry is a relation with its name as the key, such as ``wall: x >= 0``."""
+    unknown = len(entry) == 1 and not any(key in TYPES or meant_key(key, tuple(_ALL_FIELDS)) for key in entry)
+    return unknown and all(isinstance(text, str) and re.search("[=<>≤≥]", text) for text in entry.values())
 
 
 #: The keys of constraints of any type.
@@ -132,21 +141,21 @@ def _required(cls: type[ConstraintBase]) -> set[str]:
 def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return the constraint type that ``word`` most likely means, by the keys of ``entry``; None if there is none."""
     words = {kind: (kind, *cls.words().synonyms, *cls.words().understood) for kind, cls in TYPES.items()}
-    every_word = {name for names in words.values() for name in names}
+    terms, keys = {name for names in words.values() for name in names}, entry.keys() - {"name", "type"}
+    fitting = {name for kind in words if keys & TYPES[kind].model_fields.keys() for name in words[kind]}
     text = word.lower() if isinstance(word, str) else ""
-    near = next((part for part in re.split(r"\W+", text) if part in every_word), None) or nearest(text, every_word)
+    near = next((part for part in re.split(r"\W+", text) if part in terms), None) or nearest(text, fitting or terms)
     fields = {kind: TYPES[kind].model_fields for kind, names in words.items() if near in names}
     return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
 
 
-def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
+def with_hint(fault: Fault, value: Mapping[str, Any]) -> Fault:
     """Return ``fault`` with its field in the message, a hint and a reference; ``value`` is the scene's document."""
     message = re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message)
     keys = [key for key in fault.where if isinstance(key, str)]
     if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
         message = f"`{keys[-1]}`: {message}"
-    document = {} if value is None else value
-    return replace(fault, message=message, hint=_hint(fault, document), see=_see(fault, document))
+    return replace(fault, message=message, hint=_hint(fault, value), see=_see(fault, value))
 
 
 def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:

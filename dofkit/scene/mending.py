@@ -10,6 +10,7 @@ import copy
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from numbers import Number
 from typing import Any
 
 from pydantic import ValidationError
@@ -107,7 +108,8 @@ class _MendedScene:
         if fault.message.startswith(UNKNOWN_KEY):
             part = owner.pop(where[-1], None)
             self._guessed |= {where[:2]} if where[0] == "picture" else set()
-            self._undeclared |= not meant and (len(where) == 1 or where[0] in _DECLARING)
+            may_declare = not meant and not isinstance(part, Number) and (len(where) == 1 or where[0] in _DECLARING)
+            self._undeclared |= may_declare
             if meant and meant not in owner:
                 owner[meant] = part
                 places = {(*where[:-1], meant): self.words.written(where)}

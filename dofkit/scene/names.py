@@ -91,8 +91,9 @@ def _renaming_hint(name: str, why: str) -> str:
     latin = re.search(r"not the \w+ (`.`)$", why)
     if latin is not None:
         return f"type {latin[1]} instead"
-    plain = readable_name(name)
-    return f"write `{plain}`" if plain != name and why_invalid(plain) is None else "choose another name"
+    plain, words = readable_name(name), re.split(r"[\s,]+", name)
+    several = "" if any(map(why_invalid, words)) else f", or `{', '.join(words)}` for several names"
+    return f"write `{plain}`{several}" if plain != name and why_invalid(plain) is None else "choose another name"
 
 
 @dataclass(frozen=True)

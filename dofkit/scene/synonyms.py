@@ -1,7 +1,7 @@
 """Synonyms: a scene in other words is rewritten into the standard words if those have one meaning only.
 
 ``joints`` is a section like ``constraints``; a hinge is a ``revolute`` joint; ``direction`` may stand for ``axis``, and
-``axis: x`` for its vector; a mapping with a ``text`` and no ``type`` is an equation; ``x₁`` is the name ``x_1``.
+``axis: x`` for its vector; a mapping with a ``text`` and no ``type`` is an equation; ``x₁`` is ``x_1``, ``ℓ`` is ``l``.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _NAME = re.compile(
 )
 _PLAIN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 #: Characters by which a name may need rewriting.
-_DECORATION = re.compile(rf"[\\{{$\x00-\x1f{''.join(SUBSCRIPTS)}]")
+_DECORATION = re.compile(rf"[\\{{$\x00-\x1f{''.join(SUBSCRIPTS)}ℓ\U0001d400-\U0001d7ff]")
 _BELOW = re.compile(f"_?([{''.join(SUBSCRIPTS)}]+)")
 
 
@@ -178,10 +178,10 @@ def _named(value: Any, here: Path, places: dict[Path, Path]) -> Any:
 
 
 def standard_name(name: str) -> str:
-    r"""Return a name with its subscripts as ``_1`` and its LaTeX in plain letters; any other text as it is.
+    r"""Return a name with its subscripts as ``_1`` and LaTeX or script letters as plain ones; any other text as it is.
 
-    >>> standard_name("θ₁₂"), standard_name(r"\theta_{1}"), standard_name("x₁ + 1")
-    ('θ_12', 'theta_1', 'x₁ + 1')
+    >>> standard_name("θ₁₂"), standard_name(r"\theta_{1}"), standard_name("ℓ"), standard_name("x₁ + 1")
+    ('θ_12', 'theta_1', 'l', 'x₁ + 1')
     """
     if not _DECORATION.search(name):
         return name

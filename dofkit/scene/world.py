@@ -29,7 +29,7 @@ from dofkit.scene.parts import BodyPoint, show_point
 from dofkit.system import GROUND, Distance, DrawnPoint, JointRate, Place
 
 #: A distance as people write it: |A - B| = 3.
-_APART = re.compile(r"\s*\|\s*(\w+)\s*-\s*(\w+)\s*\|\s*=\s*([\w./()*]+)\s*")
+_APART = re.compile(r"\s*\|\s*(?:r_)?(\w+)\s*-\s*(?:r_)?(\w+)\s*\|\s*=\s*([\w./()*]+)\s*")
 
 
 class Direction(NamedTuple):
@@ -164,15 +164,18 @@ class World(Texts):
         return self.ground
 
     def advice(self, error: TextError, text: str) -> str | None:
-        """Return the hint for an unreadable text: for the name of a particle or body, its coordinates; else its own."""
+        """Return the hint for an unreadable text: for the name of a joint, particle or body, how to use it."""
         name = error.name if isinstance(error, UnknownNameError) else ""
-        owned = self.table.particles.get(name) or self.table.bodies.get(name)
+        if hasattr(self.entries.get(name), "drive"):
+            return f'joints are related by a coupling: `{{type: coupling, joints: {{q: {name}}}, text: "q = 2 t"}}`'
+        owners = {**self.table.particles, **self.table.bodies}
+        owned = owners.get(name) or owners.get(name.partition("_")[2])
         if owned is None:
             return error.hint
         apart = _APART.fullmatch(text)
         if apart is not None:
             return f"a distance is a link: `{{type: link, between: [{apart[1]}, {apart[2]}], length: {apart[3]}}}`"
-        return f"write its coordinates, {', '.join(f'`{q}`' for q in owned)}"
+        return f"write coordinates: {', '.join(f'`{q}`' for q in owned)}"
 
     def particle(self, name: str, *where: str | int) -> Placed:
         """Return the position of a particle, noted as a member; after a fault return the origin."""

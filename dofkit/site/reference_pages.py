@@ -49,11 +49,12 @@ def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]
     """Yield the picture and the page of one constraint type; ``scenes``: those of the catalog that contain it."""
     scene = shown_scene(kind, FOLDER, scene_of(cls))
     yield SitePage(f"{FOLDER}/{kind}.svg", scene.svg)
+    meaning = _meaning(cls)
     nearest = sorted(scenes, key=lambda scene: (len(scene.types), len(scene.written)))[:1]
     text = rendered(
         "type.md",
         kind=kind,
-        meaning=_sentence(_meaning(cls)),
+        meaning=meaning[:1].upper() + meaning[1:],
         spaces=_dimensions_of(cls),
         paragraphs=re.split(r"\n\s*\n", cleandoc(cls.__doc__ or "")),
         scene=scene,
@@ -94,10 +95,6 @@ def equations_of(written: str) -> Iterator[str]:
     left_out = sum(len(text) > LONGEST for text in texts)
     if left_out:
         yield f"({left_out} more, in the parameters of rotations; longer than {LONGEST} characters)"
-
-
-def _sentence(text: str) -> str:
-    return text[:1].upper() + text[1:]
 
 
 def _meaning(cls: type[ConstraintBase]) -> str:

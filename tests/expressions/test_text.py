@@ -252,7 +252,7 @@ READ: dict[str, Expr] = {
     r"R \cos\theta \, \mathrm{d}\phi": R * cos(theta) * dphi,
     r"x^{2}+y^{2}": x**2 + y**2,
     r"\left(x+y\right)\cdot z": (x + y) * z,
-    r"\frac{\mathrm{d}x}{\mathrm{d}t}": xdot,
+    r"\cos\theta \frac{\mathrm{d}x}{\mathrm{d}t}": cos(theta) * xdot,
     r"\dot{x}_{A} + \dot{x_A}": 2 * velocity("x_A"),
     r"\sqrt{x^2+y^2}": fn("sqrt", x**2 + y**2),
 }

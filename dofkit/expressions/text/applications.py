@@ -77,11 +77,12 @@ def _bare_argument(parser: Parser, token: Token) -> Expr:
             factors.append(parser.power())
     following = parser.next
     touching = following.start == parser.last.end
+    rate = [t.kind for t in parser.tokens[parser.at : parser.at + 3]] == ["frac", "(", "motion"]
     doubtful = following.kind in ("value", "number", "root", "frac") or (following.kind == "(" and touching)
     if following.kind in ("*", "/") and touching:
         second = parser.tokens[parser.at + 1]
         doubtful = second.start == following.end and second.kind in ("value", "number", "(")
-    if doubtful:
+    if doubtful and not rate:
         _ask_extent(parser, token, first)
     return factors[0] if len(factors) == 1 else mul(*factors)
 
@@ -91,7 +92,7 @@ def _ask_extent(parser: Parser, token: Token, first: Token) -> NoReturn:
     after, end = parser.next, parser.last.end
     beyond = parser.tokens[parser.at + 1] if after.kind in ("*", "/", "^") else after
     argument = parser.source(first.start, end)
-    more = parser.source(end, beyond.end) + ("...)" if beyond.kind == "(" else "")
+    more = parser.source(end, beyond.end) + {"(": "...)", "frac": "..."}.get(beyond.kind, "")
     sign = "" if after.kind in ("*", "/", "^", "superscript") else "*"
     name = token.name
     readings = (f"{name}({argument}{sign}{more})", f"{name}({argument}){sign}{more}")

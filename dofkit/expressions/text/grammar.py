@@ -19,7 +19,7 @@ from typing import Any, NoReturn, cast
 from dofkit.base.errors import TextError
 from dofkit.expressions.calculus import is_differential, over_dt
 from dofkit.expressions.real_values import Comparison, RelationSign, Requirement, bounded, inverse, of_power, raised
-from dofkit.expressions.text.characters import MAX_DEPTH
+from dofkit.expressions.text.characters import FRACTION_MARK, MAX_DEPTH
 from dofkit.expressions.text.names import AmbiguousError, Names, derivative
 from dofkit.expressions.text.tokens import Token, Tokens
 from dofkit.expressions.tree import DT, MINUS_ONE, PI, TIME, ZERO, E, Expr, add, fn, mul, num
@@ -65,7 +65,7 @@ class TextReader:
 
     def source(self, start: int, end: int) -> str:
         """Return the characters from ``start`` to ``end`` of the folded text."""
-        return self.text[start:end].strip()
+        return self.text[start:end].strip().replace(FRACTION_MARK, "\\frac")
 
     def fail(self, message: str, token: Token, hint: str | None) -> NoReturn:
         """Raise a TextError at ``token``."""
@@ -127,7 +127,7 @@ class TextReader:
             first, second = self.source(0, token.start), self.source(token.end, len(self.text))
             hint = f"give each its own text: `{first}` and `{second}`"
             self.fail("this comma separates two relations, and a text holds one", token, hint)
-        hint = "write decimals with a point; a comma stands between the arguments of a function"
+        hint = "write decimals with a point, and one relation for each component of a vector"
         self.fail("a comma cannot stand here", token, hint)
 
 

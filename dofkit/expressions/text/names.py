@@ -284,19 +284,20 @@ def why_invalid(name: str) -> str | None:
 
 
 _CONSTANT = "give the constant a name: `parameters: {C: real}`, and `... = C`"
-_RELATIONS = "give each relation its own text"
 #: Words of programs and of prose; each gets its own advice unless it is declared.
 FOREIGN: dict[str, str] = {
     **dict.fromkeys(("const", "constant", "konst", "cst", "cte"), _CONSTANT),
-    **dict.fromkeys(("and", "or", "if", "else"), _RELATIONS),
+    **dict.fromkeys(("and", "or", "if", "else"), "give each relation its own text"),
     "not": "write `=`, `<=`, `>=`, `<` or `>`", "in": "write a chain `0 <= x <= L`", "is": "write `=`",
     "lambda": "a text is mathematics, not code", "True": "write an equation", "False": "write an equation",
     "None": "write an equation, or leave the field out", "nan": "write a number", "NaN": "write a number",
-    "inf": "leave that bound out", "oo": "leave that bound out",
+    "inf": "leave that bound out", "oo": "leave that bound out", "tg": "write `tan`, or `t g` for the product",
+    **dict.fromkeys(("distance", "dist", "norm"), "a distance is a link: `{type: link, between: [A, B], length: 2}`"),
 }  # fmt: skip
 #: What is written in place of a letter that people use for something else.
 _ADVICE = {"e": "write `E` for Euler's number, or `exp(x)` for its powers",
-           "d": "write the differential of `x` as `dx`, its velocity as `xdot`"}  # fmt: skip
+           "d": "write the differential of `x` as `dx`, its velocity as `xdot`, and d/dt (x y) as `diff(x y, t)`",
+           **dict.fromkeys(("dot", "ddot"), "write the velocity of `x` as `xdot`")}  # fmt: skip
 #: Names of units: a number has none here.
 UNITS = frozenset({
     "km", "m", "dm", "cm", "mm", "um", "nm", "in", "inch", "ft", "kg", "g", "mg", "lb", "s", "ms", "min", "h", "Hz",
@@ -335,4 +336,4 @@ def _nearest(word: str, lookup: Lookup, called: bool) -> str | None:
     if len(pool) > _NEAR:  # keep the comparison short in a scene of thousands of names
         alike = (n for n in pool if abs(len(n) - len(target)) < 2 and (n[:1] == target[:1] or n[1:] == target[1:]))
         pool = list(islice(alike, _NEAR))
-    return closest(target, pool, 0.5) or closest(target, [*declared[:_NEAR], *ELEMENTARY], 0.7)
+    return closest(target, pool, 0.6 if called else 0.5) or closest(target, [*declared[:_NEAR], *ELEMENTARY], 0.7)

@@ -238,7 +238,8 @@ def _check_number(digits: str, text: str, end: int, column: int, lookup: Lookup)
     if digits == "0" and after in tuple("xXoObB") and text[end + 1 : end + 2].isdigit():
         raise TextError("only decimal numbers are read", column, "write the number in decimal digits")
     if len(digits) > 1 and digits[0] == "0" and digits[1].isdigit():
-        raise TextError("a number does not begin with 0", column, f"write `{digits.lstrip('0') or '0'}`")
+        hint = f"write `{digits.lstrip('0') or '0'}`, and decimals with a point"
+        raise TextError("a number does not begin with 0", column, hint)
     letter = "e" if "e" in digits else "E"
     if letter in digits and letter in lookup.declared:
         head, _, tail = digits.partition(letter)

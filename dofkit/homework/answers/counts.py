@@ -133,17 +133,13 @@ def _segments(script: Script) -> Iterator[Script]:
                 raise DoubtError("it gives more than one number.", inside.columns[0], _HINT)
             if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
                 yield inside
-            script = script.replaced(re.compile(re.escape(group[0])), _blank)
+            script = script.replaced(re.compile(re.escape(group[0])), " " * len(group[0]))
     place = 0
     for cut in [*(m.span() for m in _SEGMENT.finditer(script.text)), (len(script.text), len(script.text))]:
         part = script.cut(place, cut[0])
         if part.text.strip():
             yield part
         place = cut[1]
-
-
-def _blank(match: re.Match[str]) -> str:
-    return " " * len(match[0])
 
 
 def _only_number(text: str) -> bool:

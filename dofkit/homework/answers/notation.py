@@ -69,10 +69,6 @@ ARROW = "⇒"
 _WIDE = re.compile("[\uff01-\uff5e]")
 
 
-def _narrow(match: re.Match[str]) -> str:
-    return chr(ord(match[0]) - 0xFEE0)
-
-
 def _mended(match: re.Match[str]) -> str:
     return "\\" + CONTROLS[match[0][0]] + match[0][1:]
 
@@ -186,7 +182,7 @@ def _unboxed(script: Script) -> Script:
 
 def script_of(text: str) -> Script:
     """Return a text in plain notation; what no rule covers is unchanged, and may be rejected by the parser."""
-    script = Script.of(text).replaced(BROKEN_COMMAND, _mended).replaced(_WIDE, _narrow)
+    script = Script.of(text).replaced(BROKEN_COMMAND, _mended).replaced(_WIDE, lambda wide: chr(ord(wide[0]) - 0xFEE0))
     if script.text.isascii() and not _ODD.search(script.text):
         return script
     script = _unboxed(_as_equation(script))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import permutations
+from typing import TypeAlias
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, replace_nodes, substitute
@@ -20,6 +21,8 @@ from dofkit.scene.scene import Scene
 MOST_RENAMED = 2
 _TWO = 2
 _SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
+#: The coefficients of sine and cosine in a relation, and the remainder.
+_Row: TypeAlias = tuple[Expr, Expr, Expr]
 
 
 def restrictions(relations: Sequence[Comparison], names: Sequence[str], scene: Scene) -> list[Expr] | None:
@@ -144,41 +147,36 @@ def _without_angle(holding: Sequence[Expr], untouched: list[Expr], symbol: Expr,
     sums = [replace_nodes(e, named) for e in holding]
     if any(symbol in e.symbols for e in sums):
         return None
+    rows = {e: row for e in sums if (row := _linear(e)) is not None}
     if len(sums) < _TWO:
-        return untouched if (row := _linear(sums[0])) is not None and row[2].is_zero else None
-    if len(sums) == _TWO and (circle := _circle(*sums)) is not None:
+        return untouched if rows and rows[sums[0]][2].is_zero else None
+    if len(sums) == _TWO == len(rows) and (circle := _circle(*rows.values())) is not None:
         return [*untouched, circle]
-    for first, second in permutations(sums, 2):
-        solved = _solved(first, second, scene)
+    for first, second in permutations(rows, 2):
+        solved = _solved(rows[first], rows[second], scene)
         if solved is not None:
             others = [substitute(e, solved) for e in sums if e is not first and e is not second]
             return [*untouched, *others, solved[_SINE] ** 2 + solved[_COSINE] ** 2 - ONE]
     return None
 
 
-def _linear(e: Expr) -> tuple[Expr, Expr, Expr] | None:
-    """Return the coefficients of sine and cosine, and the remainder; None if ``e`` is not linear in them."""
+def _linear(e: Expr) -> _Row | None:
+    """Return the row of a relation; None if ``e`` is not linear in sine and cosine."""
     row = diff(e, _SINE), diff(e, _COSINE), substitute(e, {_SINE: ZERO, _COSINE: ZERO})
     return None if any({_SINE, _COSINE} & c.symbols for c in row) else row
 
 
-def _circle(first: Expr, second: Expr) -> Expr | None:
+def _circle(first: _Row, second: _Row) -> Expr | None:
     """Return e^2 + f^2 - r^2 for e = r sin(A), f = r cos(A), with any signs; None for other relations."""
-    first_row, other = _linear(first), _linear(second)
-    if first_row is None or other is None:
-        return None
-    (a, b, e), (c, d, f) = (first_row, other) if first_row[1].is_zero else (other, first_row)
+    (a, b, e), (c, d, f) = (first, second) if first[1].is_zero else (second, first)
     if not b.is_zero or not c.is_zero or not (a * a - d * d).is_zero:
         return None
     return e * e + f * f - a * a
 
 
-def _solved(first: Expr, second: Expr, scene: Scene) -> dict[Expr, Expr] | None:
+def _solved(first: _Row, second: _Row, scene: Scene) -> dict[Expr, Expr] | None:
     """Return the sine and cosine by Cramer's rule, or None if the determinant may be 0."""
-    first_row, other = _linear(first), _linear(second)
-    if first_row is None or other is None:
-        return None
-    (a, b, e), (c, d, f) = first_row, other
+    (a, b, e), (c, d, f) = first, second
     whole = a * d - b * c
     if not never_zero(whole, scene):
         return None

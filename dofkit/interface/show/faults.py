@@ -28,13 +28,18 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u
 
 
 def complaint(file: str, faults: tuple[Fault, ...], document: Document | None, coloured: bool = False) -> str:
-    """Return the faults of ``file`` as lines, with the faulty lines of ``document`` if it is given."""
-    paint = _painted if coloured else _plain
+    """Return the faults of ``file`` as lines, with the faulty lines of ``document`` if it is given.
+
+    Of more than `MOST_SHOWN` faults those with the same message and hint are shown once.
+    """
+    paint = _painted if coloured else lambda text, style: text
     blocks, seen = [], set[str | None]()
-    for fault in faults[:MOST_SHOWN]:
+    first = {(fault.message, fault.hint): fault for fault in reversed(faults)}
+    distinct = [fault for fault in faults if len(faults) <= MOST_SHOWN or fault is first[fault.message, fault.hint]]
+    for fault in distinct[:MOST_SHOWN]:
         blocks.append(_block(file, fault if fault.see not in seen else replace(fault, see=None), document, paint))
         seen.add(fault.see)
-    more = len(faults) - MOST_SHOWN
+    more = len(faults) - len(distinct[:MOST_SHOWN])
     if more > 0:
         blocks.append(f"... and {more} more in {safe(file)}")
     return "\n".join(blocks)
@@ -58,11 +63,6 @@ def _fault_lines(fault: Fault) -> Iterator[str]:
         yield f"    hint: {safe(fault.hint)}"
     if fault.see:
         yield f"    see: dofkit explain {fault.see}"
-
-
-def _plain(text: str, style: Style) -> str:
-    del style
-    return text
 
 
 def _painted(text: str, style: Style) -> str:

@@ -111,7 +111,7 @@ class EnergyReader:
     def _kinetic(self) -> Iterator[Expr]:
         bodies = [*(None for _ in self.scene.particles), *self.scene.bodies]
         for (world, m, names), body in zip(masses(self.scene, self.worlds), bodies, strict=True):
-            yield HALF * m * _speed_squared(names)
+            yield HALF * m * ex.add(*(ex.velocity(name) ** 2 for name in names))
             if body is not None and world.dimension > 1:
                 yield _turning(world, body.inertia, world.frames[body.name])
 
@@ -210,10 +210,6 @@ def body_spin(frame: Frame) -> Vec:
         precession * tilt * c - nutation * s,
         precession * ex.fn("cos", theta) + rotation,
     )
-
-
-def _speed_squared(names: tuple[str, ...]) -> Expr:
-    return ex.add(*(ex.velocity(name) ** 2 for name in names))
 
 
 def gravity_of(scene: Scene, worlds: EntryWorlds) -> Vec:
