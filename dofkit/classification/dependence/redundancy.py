@@ -19,7 +19,7 @@ from dofkit.classification.freedom.preparation import algebraic, all_of, branche
 from dofkit.exact.matrices.sparse import SparseRow, components
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
-from dofkit.relations.blocks import Block, coordinates_of, expressions_of
+from dofkit.relations.blocks import Block, Row, coordinates_of, expressions_of
 from dofkit.relations.normal.domain import DomainCondition, conditions_of, is_always_satisfied
 from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Reduced
@@ -93,11 +93,11 @@ def _is_conditional(n: Normal) -> bool:
 def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
     """Return the redundancies with undecided constraints as needed, given that no equation is surplus.
 
-    They are unchanged if an equation may remove several freedoms (a sum of squares), if there are hidden relations, or
-    if the set is singular.
+    They are unchanged if an equation may remove several freedoms (a sum of squares), if a row was rewritten by others,
+    if there are hidden relations, or if the set is singular.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
-    if several or any(a.hidden or a.degenerate for a in outcome.answers):
+    if several or not _are_written(outcome.rows, reduced) or any(a.hidden or a.degenerate for a in outcome.answers):
         return list(dependent)
     answer = []
     for r in dependent:
@@ -307,16 +307,18 @@ def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
     return {id(p): k for r in reduced for k, n in enumerate(r.normals) for p in n.pieces}
 
 
+def _are_written(rows: Iterable[Row], reduced: Iterable[Reduced]) -> bool:
+    """Return whether rows are as written: zdot = 0 is what xdot^2 + ydot^2 + zdot^2 = 1 says only with other rows."""
+    return _numbered(reduced).keys() >= {id(r.piece) for r in rows}
+
+
 def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:
     """Return whether each equation has one row and removes one freedom, so that none is implied by the others."""
-    rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
-    single = rows == {i: reduced[i].equations for i in numbers}
+    rows = [r for block, _ in blocks for r in block.rows]
+    single = Counter(r.constraint for r in rows) == {i: reduced[i].equations for i in numbers}
     plain = all(a.velocity_dof is not None and not (a.hidden or a.degenerate) for _, a in blocks)
-    return (
-        single
-        and plain
-        and sum(rows.values()) == sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
-    )
+    removed = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
+    return single and plain and len(rows) == removed and _are_written(rows, (reduced[i] for i in numbers))
 
 
 def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
