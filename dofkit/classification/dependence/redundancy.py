@@ -272,9 +272,7 @@ def _of_block(
     removed = partial(removal.by_removal, block, setting, a, nullity, equations)
     is_finite = "balls" in setting.engines and len(block.finite) == len(block.rows)
     by_removal = partial(unless_late, removed if is_finite else partial(undecided_dependence, owners), undecided)
-    if nullity <= 0 and a.hidden and not a.degenerate:
-        yield _independent(dict(Counter(owners)))
-    elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
+    if a.degenerate or a.hidden or len(matrix) != len(block.rows):
         yield by_removal()
     else:
         finite = _finite_rows(block)
