@@ -45,8 +45,10 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     with limited(LEAVING_SECONDS):
         largest = largest_redundant_set(reversed(order), removal.in_time)
         circuits = _circuits(removal, order, largest.members)
-    nullity = max(nullity, sum(o in largest.members for o in owners))
-    groups = [(nullity, sorted(order))] if largest.members else []
+    removed = Counter(o for o in owners if o in largest.members)
+    groups = [(removed[o], sorted({o, *circuit})) for o, circuit in circuits.items()]
+    if removed and (removed.total() < nullity or circuits.keys() != removed.keys()):
+        groups = [(max(nullity, removed.total()), sorted(order))]
     undecided = tuple(largest.undecided)
     answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim(removal.verdict, a.about))
     count = counted(block, setting, a, numbered) if is_at_reference(block, a, setting) else None
