@@ -213,14 +213,14 @@ def _largest_redundant(matrices: Sequence[OwnedRows], members: list[int], bases:
     all of whose rows depend on rows before them. If there may be a larger set, all ``members`` are undecided.
     """
     rows_of = Counter(o for p in matrices for o in p.owners)
-    single, few = all(rows_of[o] == 1 for o in members), len(members) <= SEARCHED
-    if single or len(members) > REMOVED or (any(p.p == 2 for p in matrices) and not few):
+    single = all(rows_of[o] == 1 for o in members)
+    if single or len(members) > REMOVED or any(p.p == 2 for p in matrices):
         kept_of = set().union(*(b.pivot_owners for b in bases))
         redundant = [o for o in members if o not in kept_of]
         complete = single or len(redundant) == _most_redundant(bases, {*members})
         return RedundantSet(redundant, [] if complete else members)
     dual = _DualMatroid(matrices, members)
-    if few:
+    if len(members) <= SEARCHED:
         return largest_redundant_set(reversed(members), dual.are_redundant)
     small_first = sorted(members, key=lambda o: (rows_of[o], -members.index(o)))
     redundant = max((dual.greedy(order) for order in (reversed(members), small_first)), key=len)
