@@ -29,11 +29,6 @@ ENTRY += ("circuit", "equations")
 
 #: Where a method is known to answer something else, and why: (scene, method) -> (fields, reason).
 KNOWN: dict[tuple[str, MethodName], tuple[tuple[str, ...], str]] = {
-    ("heureka-jitterbug", "balls"): (
-        ("redundant",),
-        "balls keep which equations depend on which, without the weights: of constraints of several equations each "
-        "they name fewer than can go",
-    ),
     ("roots-and-their-squares", "balls"): (
         ("redundant", "root3.circuit"),
         "balls look near a point, where a square implies the root",

@@ -7,13 +7,20 @@ only a geometric equation fixes the constant. A set of constraints is dependent 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import accumulate, combinations
 
-from dofkit.base.deadline import check
+from dofkit.base.deadline import check, limited, unless_late
 from dofkit.base.verdicts import Claim, together
 from dofkit.classification.dependence.implication import Everywhere
-from dofkit.classification.dependence.minimal_sets import SufficientSets, largest_redundant_set, minimal_set
+from dofkit.classification.dependence.minimal_sets import (
+    RedundantSet,
+    SufficientSets,
+    largest_redundant_set,
+    minimal_set,
+)
 from dofkit.classification.dependence.near_reference import NearReference
 from dofkit.exact.matrices.sparse import SparseRow, Supports, components, echelon, rank_of_rows, transposed, vanishing
 from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
@@ -22,8 +29,8 @@ from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
 SEARCHED = 12
 #: The claim of dependences of rows at points over GF(p).
 ROWS = Claim("probable", "rows at a point", bits=BITS)
-#: Bound on the members of a group for the greedy search, and on the number of its exchanges.
-REMOVED, EXCHANGES = 60, 200
+#: Bound on the members of a group for the greedy search, and on the seconds for larger sets.
+REMOVED, SECONDS = 60, 5.0
 
 
 @dataclass(frozen=True)
@@ -67,9 +74,11 @@ def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redu
     if not any(b.supports for b in bases):
         return Redundancies(independent, equations=dict.fromkeys(order, ()))
     groups = _groups(bases)
-    redundant: list[int] = []
+    redundant, perhaps = list[int](), list[int]()
     for _, members in groups:
-        redundant += _largest_redundant(matrices, [o for o in order if o in members and o not in needed], bases)
+        largest = _largest_redundant(matrices, [o for o in order if o in members and o not in needed], bases)
+        redundant += largest.members
+        perhaps += largest.undecided
     undecided = set[int]().union(*(b.undecided for b in bases))
     decided = [owner for owner in redundant if owner not in undecided]
     circuits = {owner: _circuit(matrices, order, owner, bases) for owner in decided}
@@ -77,7 +86,7 @@ def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redu
     equations = {o: e for o, e in _equations(matrices, bases).items() if o not in uncounted}
     claim = together(*(part.claim for part, basis in zip(matrices, bases, strict=True) if basis.supports))
     return Redundancies(
-        independent, sorted(redundant), groups, circuits, equations=equations, uncounted=uncounted, claim=claim
+        independent, sorted(redundant), groups, circuits, tuple(perhaps), equations, uncounted, claim=claim
     )
 
 
@@ -197,39 +206,43 @@ def _spans(matrices: Sequence[OwnedRows], kept: set[int], everything: set[int]) 
     )
 
 
-def _largest_redundant(matrices: Sequence[OwnedRows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
+def _largest_redundant(matrices: Sequence[OwnedRows], members: list[int], bases: Sequence[_Basis]) -> RedundantSet:
     """Return a largest redundant set among ``members``, of several the last in the order.
 
-    In large groups, for single rows, and for dependency patterns modulo 2 (from balls), it is the set of constraints
-    all of whose rows depend on rows before them.
+    For single rows, in large groups, and for dependency patterns modulo 2 (from balls), it is the set of constraints
+    all of whose rows depend on rows before them. If there may be a larger set, all ``members`` are undecided.
     """
-    unweighted = any(p.p == 2 for p in matrices) and len(members) > SEARCHED
     rows_of = Counter(o for p in matrices for o in p.owners)
-    if unweighted or len(members) > REMOVED or all(rows_of[o] == 1 for o in members):
+    single = all(rows_of[o] == 1 for o in members)
+    if single or len(members) > REMOVED or any(p.p == 2 for p in matrices):
         kept_of = set().union(*(b.pivot_owners for b in bases))
-        return [o for o in members if o not in kept_of]
+        redundant = [o for o in members if o not in kept_of]
+        complete = single or len(redundant) == _most_redundant(bases, {*members})
+        return RedundantSet(redundant, [] if complete else members)
     dual = _DualMatroid(matrices, members)
-    if len(members) > SEARCHED:
-        return _exchanged(dual, members, rows_of)
-    return largest_redundant_set(reversed(members), dual.are_redundant).members
-
-
-def _exchanged(dual: _DualMatroid, members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
-    """Return a redundant set that cannot be enlarged, by a greedy search, improved by exchanging one for two members.
-
-    A larger one may exist: constraints of several equations are not a matroid.
-    """
+    if len(members) <= SEARCHED:
+        return largest_redundant_set(reversed(members), dual.are_redundant)
     small_first = sorted(members, key=lambda o: (rows_of[o], -members.index(o)))
-    redundant = max((dual.greedy(order, []) for order in (list(reversed(members)), small_first)), key=len)
-    exchangeable = iter(redundant)
-    for _ in range(EXCHANGES):
-        check()
-        if (owner := next(exchangeable, None)) is None:
-            break
-        larger = dual.greedy([o for o in small_first if o != owner], [o for o in redundant if o != owner])
-        if len(larger) > len(redundant):
-            redundant, exchangeable = larger, iter(larger)
-    return redundant
+    redundant = max((dual.greedy(order) for order in (reversed(members), small_first)), key=len)
+    alone = [o for o in small_first if dual.are_redundant([o])]
+    with limited(SECONDS):
+        while len(redundant) < _most_redundant(bases, members):
+            larger = filter(dual.are_redundant, combinations(alone, len(redundant) + 1))
+            result = unless_late(partial(next, larger, None), ())
+            if not result:
+                return RedundantSet(redundant, [] if result is None else members)
+            redundant = list(result)
+    return RedundantSet(redundant, [])
+
+
+def _most_redundant(bases: Sequence[_Basis], members: Collection[int]) -> int:
+    """Return a bound on the members that can be redundant together: they have no more rows than depend on others."""
+    fewest = len(members)
+    for b in bases:
+        rows_of = Counter(o for o in b.owners if o in members)
+        within = sum(k <= len(b.supports) for k in accumulate(sorted(rows_of.values())))
+        fewest = min(fewest, len(members) - len(rows_of) + within)
+    return fewest
 
 
 class _DualMatroid:
@@ -254,19 +267,20 @@ class _DualMatroid:
 
     def are_redundant(self, owners: Sequence[int]) -> bool:
         """Return whether the rows of the others span those of ``owners``, and the finite ones the finite ones."""
+        check()
         for of, most, p in self._tables:
             rows = [row for owner in owners for row in of.get(owner, ())]
             if len(rows) > most or rank_of_rows(rows, p) < len(rows):
                 return False
         return True
 
-    def greedy(self, order: Iterable[int], redundant: Sequence[int]) -> list[int]:
-        """Return the set ``redundant`` enlarged, in ``order``, by constraints with which it stays redundant."""
-        larger = list(redundant)
+    def greedy(self, order: Iterable[int]) -> list[int]:
+        """Return the redundant set to which constraints are added, in ``order``, with which it stays redundant."""
+        redundant = list[int]()
         for owner in order:
-            if owner not in larger and self.are_redundant([*larger, owner]):
-                larger.append(owner)
-        return larger
+            if self.are_redundant([*redundant, owner]):
+                redundant.append(owner)
+        return redundant
 
 
 def _circuit(matrices: Sequence[OwnedRows], order: list[int], owner: int, bases: Sequence[_Basis]) -> list[int]:

@@ -16,12 +16,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import Claim
-from dofkit.classification.dependence.near_reference import (
-    BlockImplication,
-    NearReference,
-    implied_near,
-    is_at_reference,
-)
+from dofkit.classification.dependence.near_reference import BlockImplication, implied_near
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.preparation import (
     all_of,
@@ -38,7 +33,7 @@ from dofkit.exact.points.frames import vanishes
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
-from dofkit.relations.blocks import NOBODY, Block, Row, coordinates_of, split
+from dofkit.relations.blocks import NOBODY, Row, coordinates_of, split
 from dofkit.relations.linear_relations import explicit_relations
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
@@ -296,8 +291,3 @@ class Everywhere(BlockImplication):
         """Return all others; there is no quick way to see which are needed."""
         del row
         return list(others)
-
-
-def implication_of(block: Block, a: Answer, setting: Setting) -> NearReference | Everywhere:
-    """Return the implications near the reference if the block was analysed there, otherwise those everywhere."""
-    return NearReference(block, setting) if is_at_reference(block, a, setting) else Everywhere(block, setting)

@@ -34,13 +34,15 @@ class BlockImplication:
         return solve_linear(relations[:-1]).implies(relations[-1]) if len(relations) == len(pieces) else None
 
     def removes_several(self, row: int, others: Sequence[int]) -> bool:
-        """Return whether it is known that a row removes several freedoms where independent ``others`` are satisfied.
+        """Return whether a row may remove several freedoms where independent ``others`` are satisfied.
 
-        With x = 0, x + y^2 + z^2 = 0 removes two more. Fewer rows than the rank may then imply all the others.
+        With x = 0, x + y^2 + z^2 = 0 removes two more. Fewer rows than the rank may then imply all the others. If the
+        freedom is not known, they may do so except near a reference.
         """
         rows = [self.block.rows[i] for i in (*others, row)]
         remaining = freedom(self.block.coordinates, rows, self.setting)
-        return remaining is not None and remaining < len(self.block.coordinates) - len(rows)
+        unknown = remaining is None and self.setting.reference is None
+        return unknown or (remaining is not None and remaining < len(self.block.coordinates) - len(rows))
 
 
 class NearReference(BlockImplication):

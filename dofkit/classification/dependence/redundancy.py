@@ -12,14 +12,15 @@ from dofkit.base.deadline import unless_late
 from dofkit.base.verdicts import About, least, together
 from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import ROWS, OwnedRows, analyse
-from dofkit.classification.dependence.implication import IMPLIED, implication_of
+from dofkit.classification.dependence.implication import IMPLIED, Everywhere
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
+from dofkit.classification.dependence.near_reference import NearReference, is_at_reference
 from dofkit.classification.freedom.branches import Outcome, off_reference
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
-from dofkit.exact.matrices.sparse import SparseRow, components
+from dofkit.exact.matrices.sparse import components
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
-from dofkit.relations.blocks import Block, coordinates_of, expressions_of
+from dofkit.relations.blocks import Block, Row, coordinates_of, expressions_of
 from dofkit.relations.normal.domain import DomainCondition, conditions_of, is_always_satisfied
 from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Reduced
@@ -93,11 +94,11 @@ def _is_conditional(n: Normal) -> bool:
 def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
     """Return the redundancies with undecided constraints as needed, given that no equation is surplus.
 
-    They are unchanged if an equation may remove several freedoms (a sum of squares), if there are hidden relations, or
-    if the set is singular.
+    They are unchanged if an equation may remove several freedoms (a sum of squares), if a row was rewritten by others,
+    if there are hidden relations, or if the set is singular.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
-    if several or any(a.hidden or a.degenerate for a in outcome.answers):
+    if several or not _are_written(outcome.rows, reduced) or any(a.hidden or a.degenerate for a in outcome.answers):
         return list(dependent)
     answer = []
     for r in dependent:
@@ -150,7 +151,9 @@ def _of_relations(
     settled = [a for a in answered if isinstance(a, Redundancies)]
     needed = set[int]().union(*(r.needed for r in settled))
     by_rank = []
-    for group in _joined([a for a in answered if isinstance(a, OwnedRows)]):
+    parts = [a for a in answered if isinstance(a, OwnedRows) and a.owners]  # joined if they share a constraint
+    for numbers_of_parts in components(part.owners for part in parts):
+        group = [parts[k] for k in numbers_of_parts]
         undecided = undecided_dependence(o for rows in group for o in rows.owners)
         by_rank.append(unless_late(partial(analyse, group, needed), undecided))
     conditional = _has_piece(reduced, (i for r in by_rank for i in r.redundant), DomainCondition)
@@ -267,34 +270,22 @@ def _of_block(
     nullity = len(block.rows) - (len(block.coordinates) - (a.velocity_dof or 0))
     owners = removal.owners_of(block)
     equations = [numbered.get(id(r.piece), -1) for r in block.rows]
-    matrix = _without_hidden(block, a)
+    first = len(block.finite)
+    matrix = a.matrix[:first] + a.matrix[first + len(a.hidden) :]  # without the rows of hidden equations
     undecided = undecided_dependence(owners)
     removed = partial(removal.by_removal, block, setting, a, nullity, equations)
     is_finite = "balls" in setting.engines and len(block.finite) == len(block.rows)
     by_removal = partial(unless_late, removed if is_finite else partial(undecided_dependence, owners), undecided)
-    if nullity <= 0 and a.hidden and not a.degenerate:
-        yield _independent(dict(Counter(owners)))
-    elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
+    if a.degenerate or a.hidden or len(matrix) != len(block.rows):
         yield by_removal()
     else:
         finite = _finite_rows(block)
         # a constraint with a single row is redundant if and only if this row is
         sure = a.supports is not None or (a.identical and a.trusted and len({*owners}) == len(owners))
-        implied = None if sure or nullity <= 0 else implication_of(block, a, setting)
+        of_kind = NearReference if is_at_reference(block, a, setting) else Everywhere
+        implied = None if sure or nullity <= 0 else of_kind(block, setting)
         claim = a.claim if sure or a.linear else together(ROWS, IMPLIED)
         yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied, claim, by_removal)
-
-
-def _joined(matrices: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
-    """Return the rows in groups: blocks that share a constraint are examined together."""
-    owned = [part for part in matrices if part.owners]
-    return [[owned[k] for k in numbers] for numbers in components(part.owners for part in owned)]
-
-
-def _without_hidden(block: Block, a: Answer) -> list[SparseRow]:
-    """Return the matrix without the rows of hidden equations."""
-    first = len(block.finite)
-    return a.matrix[:first] + a.matrix[first + len(a.hidden) :]
 
 
 def _independent(counted: Mapping[int, int]) -> Redundancies:
@@ -307,16 +298,18 @@ def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
     return {id(p): k for r in reduced for k, n in enumerate(r.normals) for p in n.pieces}
 
 
+def _are_written(rows: Iterable[Row], reduced: Iterable[Reduced]) -> bool:
+    """Return whether rows are as written: zdot = 0 is what xdot^2 + ydot^2 + zdot^2 = 1 says only with other rows."""
+    return _numbered(reduced).keys() >= {id(r.piece) for r in rows}
+
+
 def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:
     """Return whether each equation has one row and removes one freedom, so that none is implied by the others."""
-    rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
-    single = rows == {i: reduced[i].equations for i in numbers}
+    rows = [r for block, _ in blocks for r in block.rows]
+    single = Counter(r.constraint for r in rows) == {i: reduced[i].equations for i in numbers}
     plain = all(a.velocity_dof is not None and not (a.hidden or a.degenerate) for _, a in blocks)
-    return (
-        single
-        and plain
-        and sum(rows.values()) == sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
-    )
+    removed = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
+    return single and plain and len(rows) == removed and _are_written(rows, (reduced[i] for i in numbers))
 
 
 def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:

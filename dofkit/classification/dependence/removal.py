@@ -45,8 +45,10 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     with limited(LEAVING_SECONDS):
         largest = largest_redundant_set(reversed(order), removal.in_time)
         circuits = _circuits(removal, order, largest.members)
-    nullity = max(nullity, sum(o in largest.members for o in owners))
-    groups = [(nullity, sorted(order))] if largest.members else []
+    removed = Counter(o for o in owners if o in largest.members)
+    groups = [(removed[o], sorted({o, *circuit})) for o, circuit in circuits.items()]
+    if removed and (removed.total() < nullity or circuits.keys() != removed.keys()):
+        groups = [(max(nullity, removed.total()), sorted(order))]
     undecided = tuple(largest.undecided)
     answer = Redundancies({}, largest.members, groups, circuits, undecided, claim=_claim(removal.verdict, a.about))
     count = counted(block, setting, a, numbered) if is_at_reference(block, a, setting) else None
@@ -159,7 +161,7 @@ def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) 
     supports = counting.supports()
     if supports is None or len(supports) != max(0, len(block.rows) - (len(block.coordinates) - a.dof)):
         return None
-    owners = [r.constraint for r in block.rows]
+    owners = owners_of(block)
     dependent = Counter(owners[i] for i in supports)
     circuits = [{owners[i], *(owners[j] for j in support)} for i, support in supports.items()]
     joined = [{o for k in numbers for o in circuits[k]} for numbers in components(circuits)]
@@ -188,10 +190,6 @@ class _Counting:
         return NearReference(self.block, self.setting)
 
     @cached_property
-    def _owners(self) -> list[int]:
-        return [r.constraint for r in self.block.rows]
-
-    @cached_property
     def _dependent(self) -> Mapping[int, Sequence[int]]:
         """For rows that are combinations of rows before them at the reference, these rows."""
         return echelon(self.a.matrix, self.a.modulus, supports=True).supports
@@ -201,7 +199,7 @@ class _Counting:
 
         The order of the rows of one constraint does not matter: of equivalent ones any may be taken as the first.
         """
-        for owner, rows in groupby(sorted(self._dependent), key=self._owners.__getitem__):
+        for owner, rows in groupby(sorted(self._dependent), key=owners_of(self.block).__getitem__):
             remaining = self._independent_rows(rows)
             if remaining is None or not self._by_one(owner, remaining):
                 return None
@@ -213,7 +211,7 @@ class _Counting:
         for i in rows:
             check()
             pivots = [k for k in range(i) if k not in self._dependent]
-            enough = SufficientSets(self._near, self._owners, pivots).enough(i, self._dependent[i])
+            enough = SufficientSets(self._near, owners_of(self.block), pivots).enough(i, self._dependent[i])
             if enough is not None:
                 self.following[i] = enough
             elif self._near.follows(i, pivots) is None:
@@ -227,7 +225,7 @@ class _Counting:
 
         This is allowed for one constraint only (``bent``).
         """
-        pivots = [k for k, o in enumerate(self._owners) if o <= owner and k not in self._dependent]
+        pivots = [k for k, o in enumerate(owners_of(self.block)) if o <= owner and k not in self._dependent]
         for first in () if self.bent else rows:
             others = [i for i in rows if i != first]
             if not others or self._near.seem_to_imply([*pivots, first], others):
