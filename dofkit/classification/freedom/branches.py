@@ -33,6 +33,7 @@ from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, JointEquation, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_ALTERNATIVES, Alternative, RewrittenRow, alternatives_of
+from dofkit.system import Constraint
 
 #: Bound on the choices of branches.
 MAX_CHOICES = 16
@@ -45,6 +46,7 @@ OFF_REFERENCE = (
     "not for the reference configuration itself"
 )
 WINDS = "an angle in space was considered within half a turn of the reference configuration only"
+LENGTH_LEFT_OUT = "no value of a length that was left out allows a motion: give the length, or leave the constraint out"
 KINKED = "the argument of an absolute value vanishes at the reference configuration, so there is no derivative"
 
 
@@ -158,10 +160,21 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
         anywhere = replace(setting, reference=None)
         best, chosen = _through_reference(reduced, anywhere, AnsweredBlocks(anywhere))
     best.answers = _about_component(_with_reference_checked(best, setting), best.blocks, chosen)
-    others = [r for r in reduced if not r.constraint.winds]
-    if best.consistent is False and len(others) < len(reduced) and solve(others, setting).consistent is not False:
-        best.answers = [Answer(None, verdict="undecided", reasons=[WINDS]) for _ in best.answers]
+    if best.consistent is False:
+        lengths = frozenset(p for p in setting.generic if str(p.args[1]).startswith("_L"))
+        doubts = [_doubt(r.constraint, lengths) for r in reduced]
+        others = [r for r, doubt in zip(reduced, doubts, strict=True) if not doubt]
+        if len(others) < len(reduced) and solve(others, setting).consistent is not False:
+            best.answers = [Answer(None, verdict="undecided", reasons=[*{*doubts} - {""}]) for _ in best.answers]
     return best
+
+
+def _doubt(constraint: Constraint, lengths: frozenset[Expr]) -> str:
+    """Return why the scene need not be inconsistent with a constraint; empty if none of the ``lengths`` is in it."""
+    if constraint.winds:
+        return WINDS
+    generic = lengths and any(not lengths.isdisjoint(r.expr.symbols) for r in constraint.relations)
+    return LENGTH_LEFT_OUT if generic else ""
 
 
 def _through_reference(
