@@ -13,15 +13,13 @@ from dofkit.base.verdicts import About, least, together
 from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import ROWS, OwnedRows, analyse
 from dofkit.classification.dependence.implication import IMPLIED, implication_of
-from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
+from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied, loses_domain
 from dofkit.classification.freedom.branches import Outcome, off_reference
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
 from dofkit.exact.matrices.sparse import SparseRow, components
-from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
-from dofkit.relations.blocks import Block, coordinates_of, expressions_of
-from dofkit.relations.normal.domain import DomainCondition, conditions_of, is_always_satisfied
-from dofkit.relations.normal.no_solution import hold_nowhere
+from dofkit.relations.blocks import Block, coordinates_of
+from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.setting import Setting
 
@@ -61,23 +59,13 @@ def _within_domain(r: Redundancies, reduced: Sequence[Reduced], setting: Setting
     Undecided if a dependent one is not redundant, but may be so where all of them have a value.
     """
     dependent = {i for i, k in r.independent.items() if k < reduced[i].equations} - {*r.redundant, *r.undecided}
-    if dependent and any(_loses_domain(reduced[i], setting.positive) for i in r.independent):
+    if dependent and any(loses_domain(reduced[i], setting.positive) for i in r.independent):
         return undecided_dependence(r.independent)
     required = {c for i in r.redundant for c in reduced[i].domain() if not is_always_satisfied(c, setting.positive)}
     if not required:  # of many parts, each would look at all constraints otherwise
         return r
     by_others = {c for i, other in enumerate(reduced) if i not in r.redundant for c in other.domain()}
     return r if required <= by_others else _within(r, "component")
-
-
-def _loses_domain(r: Reduced, positive: frozenset[Expr]) -> bool:
-    """Return whether the equations as written may have no value where those analysed do, as x^2/x = y at x = 0."""
-    written = [c for c in r.domain() if not is_always_satisfied(c, positive)]
-    pieces = [p for n in r.normals for b in n.branches for p in b] if written else []
-    kept = [c for p in pieces for e in expressions_of(p) for c in conditions_of(e, positive)]
-    kept += [p for p in pieces if isinstance(p, DomainCondition)]
-    outside = (([c.expr], kept) if c.sense == "!=" else ([], [*kept, DomainCondition(-c.expr, ">")]) for c in written)
-    return not all(hold_nowhere(*claims, positive) for claims in outside)
 
 
 def _is_region(r: Reduced) -> bool:
@@ -117,7 +105,7 @@ def _connected(reduced: Sequence[Reduced], outcome: Outcome, bridged: Collection
         pieces = every if _is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
         if pieces and i not in outcome.copies:
             used.append(i)
-            names.append(frozenset().union(*map(coordinates_of, pieces)))
+            names.append(frozenset().union(*map(coordinates_of, (*pieces, *r.domain()))))
     return [[used[k] for k in numbers] for numbers in components(names)]
 
 
@@ -141,7 +129,8 @@ def _of_relations(
     blocks = list({id(block): (block, a) for i in numbers for block, a in blocks_of.get(i, ())}.values())
     if _each_takes_one(reduced, numbers, blocks):
         return [_independent({i: reduced[i].equations for i in numbers})]
-    if not _measured_by_rank(reduced, setting, numbers, blocks):
+    on_a_region = any(i not in blocks_of for i in numbers)
+    if on_a_region or not _measured_by_rank(reduced, setting, numbers, blocks):
         return [_as_free(implied(reduced, setting, numbers), reduced, blocks)]
     numbered = _numbered(reduced[i] for i in numbers)
     answered = [
