@@ -6,7 +6,7 @@ point; a form for which no rule applies gives None. The work is bounded by a num
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, combinations, count
 
@@ -19,7 +19,7 @@ from dofkit.expressions.calculus import diff, exterior_derivative
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.potentials import Algebra, Form, GivenUpError, potential
-from dofkit.integrability.integrals.writing import Pair, arranged, cost, shapes, upright
+from dofkit.integrability.integrals.writing import Pair, arranged, cost, shapes, upright, with_values_at
 from dofkit.relations.normal.pieces import Pfaffian
 
 __all__ = ["Integral", "integrate"]
@@ -45,17 +45,27 @@ class Integral:
     integral: str
 
 
-def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
-    """Return f = C and mu with a proof of df = mu omega in (q, t), or None where no rule applies."""
+def integrate(
+    form: Pfaffian, positive: frozenset[Expr], reference: Mapping[Expr, Expr] | None = None
+) -> Integral | None:
+    """Return f = C and mu with a proof of df = mu omega in (q, t), or None where no rule applies.
+
+    The logarithms in f have values at the ``reference`` configuration.
+    """
     work = Algebra(positive)
     try:
-        return _integrate(work, form)
+        pair = _integrate(work, form)
     except (GivenUpError, RecursionError, ArithmeticError):
         return None
+    if pair is None:
+        return None
+    integral, factor = pair
+    integral = integral if reference is None else with_values_at(integral, {**reference, ex.TIME: ex.ZERO})
+    return Integral(None if factor == ex.ONE else to_text(factor), _equation(integral, form.components))
 
 
 @raising_no_value
-def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
+def _integrate(work: Algebra, form: Pfaffian) -> Pair | None:
     omega = {s: ex.ZERO if work.vanishes(a) else a for s, a in form.components.items()}
     sizes = [ex.size(a) for a in omega.values() if not a.is_zero]
     if not sizes or sum(sizes) > MAX_FORM:
@@ -65,12 +75,12 @@ def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
         if f is not None:
             for integral in dict.fromkeys((arranged(upright(f)), arranged(f), f)):
                 if _proved(work, omega, (integral, ex.ONE)):
-                    return Integral(None, _equation(integral, omega))
+                    return integral, ex.ONE
     return _with_factor(work, omega)
 
 
-def _with_factor(work: Algebra, form: Form) -> Integral | None:
-    """Return the simplest integral that `_pairs` yields before the budget is exhausted, or None."""
+def _with_factor(work: Algebra, form: Form) -> Pair | None:
+    """Return the simplest integral, with its factor, that `_pairs` yields before the budget is exhausted, or None."""
     best: Pair | None = None
     try:
         for pair in _pairs(work, form):
@@ -80,7 +90,7 @@ def _with_factor(work: Algebra, form: Form) -> Integral | None:
                 break
     except GivenUpError:
         pass
-    return None if best is None else Integral(to_text(best[1]), _equation(best[0], form))
+    return best
 
 
 def _equation(integral: Expr, form: Form) -> str:
