@@ -111,11 +111,11 @@ def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int]
 def _premises(reduced: Sequence[Reduced], numbers: Iterable[int], setting: Setting) -> list[Normal]:
     """Return the equations of some constraints, and what these as written require if the equations do not."""
     selected = [reduced[i] for i in numbers]
-    required = [Normal((r.domain(),)) for r in selected if loses_domain(r, setting.positive)]
+    required = [Normal((r.domain(),)) for r in selected if _loses_domain(r, setting.positive)]
     return [*(n for r in selected for n in r.normals), *required]
 
 
-def loses_domain(r: Reduced, positive: frozenset[Expr]) -> bool:
+def _loses_domain(r: Reduced, positive: frozenset[Expr]) -> bool:
     """Return whether the equations as written may have no value where those analysed do, as x^2/x = y at x = 0."""
     written = [c for c in r.domain() if not is_always_satisfied(c, positive)]
     pieces = [p for n in r.normals for b in n.branches for p in b] if written else []

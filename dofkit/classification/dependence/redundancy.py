@@ -13,7 +13,7 @@ from dofkit.base.verdicts import About, least, together
 from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import ROWS, OwnedRows, analyse
 from dofkit.classification.dependence.implication import IMPLIED, implication_of
-from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied, loses_domain
+from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome, off_reference
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
 from dofkit.exact.matrices.sparse import SparseRow, components
@@ -48,19 +48,13 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     elsewhere = {row.constraint for block, is_missed in missed if is_missed for row in block.rows}
     for numbers in _connected(reduced, outcome, bridged):
         of_part = setting if elsewhere.isdisjoint(numbers) else replace(setting, reference=None)
-        work = partial(_of_part, reduced, of_part, blocks, numbers)
+        work = partial(_of_relations, reduced, of_part, blocks, numbers)
         result += unless_late(work, [undecided_dependence(numbers)])
     return [_within_domain(r, reduced, setting) for r in result]
 
 
 def _within_domain(r: Redundancies, reduced: Sequence[Reduced], setting: Setting) -> Redundancies:
-    """Return ``r``, about a component only if a redundant constraint as written has no value at some points.
-
-    Undecided if a dependent one is not redundant, but may be so where all of them have a value.
-    """
-    dependent = {i for i, k in r.independent.items() if k < reduced[i].equations} - {*r.redundant, *r.undecided}
-    if dependent and any(loses_domain(reduced[i], setting.positive) for i in r.independent):
-        return undecided_dependence(r.independent)
+    """Return ``r``, about a component only if a redundant constraint as written has no value at some points."""
     required = {c for i in r.redundant for c in reduced[i].domain() if not is_always_satisfied(c, setting.positive)}
     if not required:  # of many parts, each would look at all constraints otherwise
         return r
@@ -101,25 +95,11 @@ def _connected(reduced: Sequence[Reduced], outcome: Outcome, bridged: Collection
     for i, r in enumerate(reduced):
         if i in bridged:
             continue
-        every = [p for n in r.normals for b in n.branches for p in b]
-        pieces = every if _is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
+        pieces = [p for n in r.normals for b in n.branches for p in b if not isinstance(p, Inequality)]
         if pieces and i not in outcome.copies:
             used.append(i)
             names.append(frozenset().union(*map(coordinates_of, (*pieces, *r.domain()))))
     return [[used[k] for k in numbers] for numbers in components(names)]
-
-
-def _of_part(
-    reduced: Sequence[Reduced], setting: Setting, blocks: BlocksOf, numbers: Sequence[int]
-) -> list[Redundancies]:
-    """Return the redundancies of connected constraints; those satisfied on regions are undecided."""
-    regions = [i for i in numbers if _is_region(reduced[i])]
-    if not regions:
-        return _of_relations(reduced, setting, blocks, numbers)
-    others = [i for i in numbers if i not in regions]
-    by_others = _of_relations(reduced, setting, blocks, others) if others else []
-    undecided = [Redundancies({i: 0}, groups=[(reduced[i].equations, [i])], undecided=(i,)) for i in regions]
-    return [*by_others, *undecided]
 
 
 def _of_relations(
