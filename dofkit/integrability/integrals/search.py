@@ -19,7 +19,7 @@ from dofkit.expressions.calculus import diff, exterior_derivative
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.potentials import Algebra, Form, GivenUpError, potential
-from dofkit.integrability.integrals.writing import Pair, arranged, cost, shapes, upright, with_values_at
+from dofkit.integrability.integrals.writing import Pair, arranged, cost, shapes, upright
 from dofkit.relations.normal.pieces import Pfaffian
 
 __all__ = ["Integral", "integrate"]
@@ -50,22 +50,17 @@ def integrate(
 ) -> Integral | None:
     """Return f = C and mu with a proof of df = mu omega in (q, t), or None where no rule applies.
 
-    The logarithms in f have values at the ``reference`` configuration.
+    Logarithms in f have values at the ``reference`` configuration.
     """
-    work = Algebra(positive)
+    work = Algebra(positive, reference)
     try:
-        pair = _integrate(work, form)
+        return _integrate(work, form)
     except (GivenUpError, RecursionError, ArithmeticError):
         return None
-    if pair is None:
-        return None
-    integral, factor = pair
-    integral = integral if reference is None else with_values_at(integral, {**reference, ex.TIME: ex.ZERO})
-    return Integral(None if factor == ex.ONE else to_text(factor), _equation(integral, form.components))
 
 
 @raising_no_value
-def _integrate(work: Algebra, form: Pfaffian) -> Pair | None:
+def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
     omega = {s: ex.ZERO if work.vanishes(a) else a for s, a in form.components.items()}
     sizes = [ex.size(a) for a in omega.values() if not a.is_zero]
     if not sizes or sum(sizes) > MAX_FORM:
@@ -75,12 +70,12 @@ def _integrate(work: Algebra, form: Pfaffian) -> Pair | None:
         if f is not None:
             for integral in dict.fromkeys((arranged(upright(f)), arranged(f), f)):
                 if _proved(work, omega, (integral, ex.ONE)):
-                    return integral, ex.ONE
+                    return Integral(None, _equation(work, integral, omega))
     return _with_factor(work, omega)
 
 
-def _with_factor(work: Algebra, form: Form) -> Pair | None:
-    """Return the simplest integral, with its factor, that `_pairs` yields before the budget is exhausted, or None."""
+def _with_factor(work: Algebra, form: Form) -> Integral | None:
+    """Return the simplest integral that `_pairs` yields before the budget is exhausted, or None."""
     best: Pair | None = None
     try:
         for pair in _pairs(work, form):
@@ -90,14 +85,14 @@ def _with_factor(work: Algebra, form: Form) -> Pair | None:
                 break
     except GivenUpError:
         pass
-    return best
+    return None if best is None else Integral(to_text(best[1]), _equation(work, best[0], form))
 
 
-def _equation(integral: Expr, form: Form) -> str:
+def _equation(work: Algebra, integral: Expr, form: Form) -> str:
     """Return ``f = C`` as text; the constant is named C1, C2, ... if C occurs in the form."""
     names = {s.args[1] for s in form} | {s.args[1] for a in form.values() for s in a.symbols}
     constant = next(name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in names)
-    return f"{to_text(integral)} = {constant}"
+    return f"{to_text(work.with_values(integral))} = {constant}"
 
 
 def _pairs(work: Algebra, form: Form) -> Iterator[Pair]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from fractions import Fraction
 from math import gcd, lcm
 
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import content, substitute
-from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.calculus import content
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.potentials import Algebra, as_power
@@ -74,14 +73,6 @@ def upright(e: Expr) -> Expr:
     inside: Expr = last.args[1]
     divided = any(as_power(f)[1] <= -1 for f in (inside.args if inside.op == "mul" else (inside,)))
     return -ex.mul(*e.args[:-1], ex.fn("atan", 1 / inside)) if divided else e
-
-
-def with_values_at(e: Expr, configuration: Mapping[Expr, Expr]) -> Expr:
-    """Return ``e`` with log(-u) for log(u) if u < 0 at a configuration; both have the same differential."""
-    operands = tuple(with_values_at(child, configuration) for child in ex.children(e))
-    if e.op == "fn" and e.args[0] == "log" and (approximate(substitute(operands[0], configuration)) or 0) < 0:
-        return ex.fn("log", -operands[0])
-    return ex.rebuild(e, operands) if operands else e
 
 
 def cost(pair: Pair) -> tuple[int, int]:
