@@ -85,17 +85,13 @@ def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -
 
 #: Bound on the columns of a block for which real points are certified with balls.
 BALL_COLUMNS = 60
-#: The factor to the far other values of parameters.
-FAR = 2.0**12
 NEARLY = "nearly dependent equations are satisfied at a real point within its precision, but a zero was not certified"
 SINGULAR = "every real configuration that was found is singular; the motions there were not decided"
 ALLOWING = "the answers assume that the unknown functions are such that a real configuration exists"
 
 
-def real_point(
-    chart: Chart, seed: int, core: Sequence[int], initial: Mapping[Expr, float] | None = None
-) -> RealPoint | None:
-    """Return a real zero of the relations with the nodes ``core``, with balls, from ``initial`` values if given.
+def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
+    """Return a real zero of the relations with the nodes ``core``, with balls.
 
     None if none is found, balls are off, or the block is too large.
     """
@@ -103,8 +99,8 @@ def real_point(
         return None
     search = RealSearch(chart.ring, core, chart.unknowns, chart.setting.positive, chart.symbols)
     try:
-        point = search.search(seed, initial)
-        return point if point is not None or not core or initial else at_another_time(search, seed)
+        point = search.search(seed)
+        return point if point is not None or not core else at_another_time(search, seed)
     except (OverflowError, ValueError, NoValueError):
         return None
 
@@ -137,20 +133,19 @@ def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
 
 def _depends_on_unknown_function(chart: Chart) -> bool:
     """Return whether there may be no configuration for some unknown function: x^2 + h(y) = 2 has none for h = 5."""
-    if not any("call" in g.functions for g in chart.relations):
-        return False
-    implicit = explicit_relations(chart.relations).implicit
+    called = any("call" in g.functions for g in chart.relations)
+    implicit = explicit_relations(chart.relations).implicit if called else ()
     return any("call" in g.functions for g in implicit) and (len(implicit) > 1 or not _is_of_odd_degree(implicit[0]))
 
 
 def _is_of_odd_degree(e: Expr) -> bool:
     """Return whether ``e`` is a polynomial of odd degree, at most 9, in some coordinate, led by a number."""
-    for s in e.symbols:
-        slopes = [e]
-        while s in slopes[-1].symbols and len(slopes) < 10:
-            slopes.append(diff(slopes[-1], s))
-        if s.args[0] == "coordinate" and slopes[-1].op == "num" and len(slopes) % 2 == 0:
-            return not slopes[-1].is_zero
+    for s in (s for s in e.symbols if s.args[0] == "coordinate"):
+        slope, degree = e, 0
+        while s in slope.symbols and degree < 9:
+            slope, degree = diff(slope, s), degree + 1
+        if slope.op == "num" and not slope.is_zero and degree % 2:
+            return True
     return False
 
 
@@ -181,22 +176,17 @@ def _undecided(variety: Variety, why: str) -> Variety:
 def near_singular_point(chart: Chart, variety: Variety) -> Variety:
     """Return the variety near a singular real point, if only such points were found; otherwise ``variety``.
 
-    Also otherwise if it differs for far other values of parameters: y^2 = (a - 5) x^2 is a pair of lines for a > 5.
+    With other values of a real parameter there may be others: y^2 = (a - 5) x^2 is a pair of lines for a > 5.
     """
     real = variety.real
     if real is None or real.certain:
         return variety
+    drawn = real.point.symbols.keys() - chart.setting.positive.union(chart.unknowns)
+    if any(s.args[0] == "parameter" for s in drawn):
+        return variety
     local = numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:
         return variety
-    drawn = [s for s in real.point.symbols if s.args[0] == "parameter" and s not in chart.unknowns]
-    for factor in (FAR, -FAR) if drawn else ():
-        signed = ((s, factor * float(real.point.symbols[s])) for s in drawn)
-        far = {s: abs(v) if s in chart.setting.positive else v for s, v in signed}
-        other = real_point(chart, 0, chart.nodes, far)
-        elsewhere = None if other is None or other.certain else numeric_local(chart, other)
-        if elsewhere is None or elsewhere.dimension != local.dimension:
-            return variety
     dimension = local.dimension - (len(chart.columns) - chart.coordinates)
     reasons = [f"every real configuration that was found is singular: {local.reason}"]
     return Variety(True, dimension, "numeric", variety.samples, real, reasons, argument=local.argument)

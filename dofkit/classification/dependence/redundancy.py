@@ -6,7 +6,6 @@ from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Literal
 
 from dofkit.base.deadline import unless_late
 from dofkit.base.verdicts import About, least, together
@@ -112,7 +111,7 @@ def _of_relations(
     on_a_region = any(i not in blocks_of for i in numbers)
     if on_a_region or not _measured_by_rank(reduced, setting, numbers, blocks):
         return [_as_free(implied(reduced, setting, numbers), reduced, blocks)]
-    numbered = _numbered(reduced[i] for i in numbers)
+    numbered = {id(p): k for i in numbers for k, n in enumerate(reduced[i].normals) for p in n.pieces}
     answered = [
         a for block in blocks if block[1].velocity_dof is not None for a in _of_block(*block, setting, numbered)
     ]
@@ -123,14 +122,12 @@ def _of_relations(
         undecided = undecided_dependence(o for rows in group for o in rows.owners)
         by_rank.append(unless_late(partial(analyse, group, needed), undecided))
     conditional = _has_piece(reduced, (i for r in by_rank for i in r.redundant), DomainCondition)
-    if conditional or _has_piece(reduced, (i for r in by_rank for i in r.uncounted), Pfaffian):
-        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
-    is_linear = all(a.linear for _, a in blocks)
-    scope = "everywhere" if is_linear else unless_late(partial(_scope, reduced, setting, numbers, by_rank), None)
-    if scope is False:
-        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
+    unsound = conditional or _has_piece(reduced, (i for r in by_rank for i in r.uncounted), Pfaffian)
+    linear: About | None = "everywhere" if all(a.linear for _, a in blocks) else None
+    work = partial(_scope, reduced, setting, numbers, by_rank)
+    scope = None if unsound else linear or unless_late(work, None)
     if scope is None:
-        return _agreed([*settled, *(_undecided_redundancy(r) for r in by_rank)])
+        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
     return [_within(r, scope) for r in _agreed([*settled, *by_rank])]
 
 
@@ -144,16 +141,10 @@ def _within(r: Redundancies, scope: About) -> Redundancies:
     return replace(r, claim=replace(r.claim, about=least(r.claim.about, scope)))
 
 
-def _undecided_redundancy(r: Redundancies) -> Redundancies:
-    """Return ``r`` with its redundant constraints undecided, because they may be needed at other points."""
-    independent = {i: k for i, k in r.independent.items() if i not in r.redundant}
-    return Redundancies(independent, undecided=tuple(r.redundant), claim=r.claim)
-
-
 def _scope(
     reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], by_rank: Sequence[Redundancies]
-) -> About | Literal[False] | None:
-    """Return for which points the redundancy by rank is valid; False if it fails on some component, None if undecided.
+) -> About | None:
+    """Return for which points the redundancy by rank is valid; None if it fails on some component, or is undecided.
 
     x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
     Only few algebraic equations are examined on all components, and these may miss one, so that the claim is about the
@@ -171,9 +162,7 @@ def _scope(
         return "component"
     kept = [i for i in finite if i not in dropped]
     follow = all_of(constraint_follows(reduced, i, kept, setting) for i in dropped if i in finite)
-    if len(finite) < len(numbers):
-        return False if follow is False else "component"
-    return "component" if follow else follow
+    return "component" if follow or (follow is None and len(finite) < len(numbers)) else None
 
 
 def _as_free(implied: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
@@ -269,11 +258,6 @@ def _without_hidden(block: Block, a: Answer) -> list[SparseRow]:
 def _independent(counted: Mapping[int, int]) -> Redundancies:
     """Return redundancies with so many equations of each constraint, all independent."""
     return Redundancies(dict(counted), equations=dict.fromkeys(counted, ()))
-
-
-def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
-    """Return {id of a piece: the number of its scalar equation in its constraint}."""
-    return {id(p): k for r in reduced for k, n in enumerate(r.normals) for p in n.pieces}
 
 
 def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:

@@ -33,7 +33,6 @@ from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, JointEquation, Nonlinear, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_ALTERNATIVES, Alternative, RewrittenRow, alternatives_of
-from dofkit.system import Constraint
 
 #: Bound on the choices of branches.
 MAX_CHOICES = 16
@@ -162,19 +161,12 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
     best.answers = _about_component(_with_reference_checked(best, setting), best.blocks, chosen)
     if best.consistent is False:
         lengths = frozenset(p for p in setting.generic if str(p.args[1]).startswith("_L"))
-        doubts = [_doubt(r.constraint, lengths) for r in reduced]
-        others = [r for r, doubt in zip(reduced, doubts, strict=True) if not doubt]
+        generic = [bool(lengths) and any(lengths & e.expr.symbols for e in r.written) for r in reduced]
+        others = [r for r, left_out in zip(reduced, generic, strict=True) if not (left_out or r.constraint.winds)]
         if len(others) < len(reduced) and solve(others, setting).consistent is not False:
-            best.answers = [Answer(None, verdict="undecided", reasons=[*{*doubts} - {""}]) for _ in best.answers]
+            why = LENGTH_LEFT_OUT if any(generic) else WINDS
+            best.answers = [Answer(None, verdict="undecided", reasons=[why]) for _ in best.answers]
     return best
-
-
-def _doubt(constraint: Constraint, lengths: frozenset[Expr]) -> str:
-    """Return why the scene need not be inconsistent with a constraint; empty if none of the ``lengths`` is in it."""
-    if constraint.winds:
-        return WINDS
-    generic = lengths and any(not lengths.isdisjoint(r.expr.symbols) for r in constraint.relations)
-    return LENGTH_LEFT_OUT if generic else ""
 
 
 def _through_reference(
