@@ -254,13 +254,9 @@ def _about_component(answers: Sequence[Answer], blocks: Sequence[Block], chosen:
 
 def _one_sided(reduced: Sequence[Reduced], positive: frozenset[Expr]) -> tuple[list[int], list[int]]:
     """Return (constraints with an inequality that is satisfied nowhere, those for which this is undecided)."""
-    satisfiable = {
-        i: [holds_somewhere(q.expr, q.strict, positive) for q in r.inequalities]
-        for i, r in enumerate(reduced)
-        if r.inequalities
-    }
-    never = [i for i, holds in satisfiable.items() if False in holds]
-    return never, [i for i, holds in satisfiable.items() if None in holds and False not in holds]
+    holds = {i: [holds_somewhere(q.expr, q.strict, positive) for q in r.inequalities] for i, r in enumerate(reduced)}
+    never = [i for i, each in holds.items() if False in each]
+    return never, [i for i, each in holds.items() if None in each and False not in each]
 
 
 def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> Outcome:

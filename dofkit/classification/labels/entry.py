@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -88,7 +88,6 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     sentences = [reason_of(form, labels, proofs, dependence.circuit, others), reason_of_time(traits)]
     sentences += dependence.sentences(implied, reduced.equations)
     claims = _claims(form, labels, traits, integral, evidence, bool(proofs) and all(p.proved for p in proofs))
-    scope = ON_COMPONENT if claims.get("integral", OPEN).about == "component" else ""
     sure = weakest(*(c.verdict for c in claims.values()), *(t.answer.verdict for t in evidence.rows))
     return ConstraintEntry(
         name=constraint.name,
@@ -109,7 +108,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         redundant_equations=implied,
         verdict=weakest(sure, dependence.claim.verdict if dependence.redundant else "proved"),
         verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
-        reason="".join(dict.fromkeys([*sentences, scope])),
+        reason="".join(dict.fromkeys([*sentences, _scope(claims)])),
     )
 
 
@@ -233,6 +232,11 @@ def _claims(
     elif dependence.seen:
         claims["independent"] = Claim("numeric", "leaving out", gap=GAP, about="reference")
     return claims
+
+
+def _scope(claims: Mapping[str, Claim]) -> str:
+    """Return the sentence about an integral that is valid on one component only, or an empty text."""
+    return ON_COMPONENT if "integral" in claims and claims["integral"].about == "component" else ""
 
 
 def _own_integral(normals: Sequence[Normal], proofs: Sequence[Integrability]) -> str | None:
