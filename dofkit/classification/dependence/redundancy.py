@@ -240,7 +240,9 @@ def _of_block(
         sure = a.supports is not None or (a.identical and a.trusted and len({*owners}) == len(owners))
         implied = None if sure or nullity <= 0 else implication_of(block, a, setting)
         claim = a.claim if sure or a.linear else together(ROWS, IMPLIED)
-        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied, claim, by_removal)
+        yield OwnedRows(
+            matrix, owners, finite, a.modulus, equations, a.supports, implied, claim, by_removal if is_finite else None
+        )
 
 
 def _joined(matrices: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
