@@ -6,7 +6,7 @@ A rank over GF(p) is compared with that at a certified real point, because the s
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from flint import arb, arb_mat, ctx
@@ -28,9 +28,10 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch, at_another_time
 from dofkit.exact.ring.program import none_without_value, raising_no_value, values
 from dofkit.exact.zero import independent_on_set
-from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart
+from dofkit.relations.linear_relations import explicit_relations
 
 
 def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequence[int]) -> Variety:
@@ -124,25 +125,28 @@ def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
         variety.reasons.append(
             "real points and points over GF(p) disagree about the rank: the set has several components"
         )
-    elif any(map(_depends_on_unknown_function, chart.relations)):
+    elif _depends_on_unknown_function(chart):
         variety.verdict = weakest(variety.verdict, "probable")
         variety.reasons.append(ALLOWING)
     return variety
 
 
-def _depends_on_unknown_function(e: Expr) -> bool:
-    """Return whether coordinates occur in unknown functions only: h(x) = 0 has a solution for some h, not for all."""
-    within = any(node.op == "call" for node in ex.nodes(e))
-    return within and not any(s.args[0] == "coordinate" for s in _outside_calls(e))
+def _depends_on_unknown_function(chart: Chart) -> bool:
+    """Return whether there may be no configuration for some unknown function: x^2 + h(y) = 2 has none for h = 5."""
+    called = any("call" in g.functions for g in chart.relations)
+    implicit = explicit_relations(chart.relations).implicit if called else ()
+    return any("call" in g.functions for g in implicit) and (len(implicit) > 1 or not _is_of_odd_degree(implicit[0]))
 
 
-def _outside_calls(e: Expr) -> Iterator[Expr]:
-    """Yield the symbols of ``e`` that occur outside the arguments of unknown functions."""
-    if e.op == "sym":
-        yield e
-    elif e.op != "call":
-        for child in ex.children(e):
-            yield from _outside_calls(child)
+def _is_of_odd_degree(e: Expr) -> bool:
+    """Return whether ``e`` is a polynomial of odd degree, at most 9, in some coordinate, led by a number."""
+    for s in (s for s in e.symbols if s.args[0] == "coordinate"):
+        slope, degree = e, 0
+        while s in slope.symbols and degree < 9:
+            slope, degree = diff(slope, s), degree + 1
+        if slope.op == "num" and not slope.is_zero and degree % 2:
+            return True
+    return False
 
 
 def _by_field_alone(chart: Chart, variety: Variety) -> Variety:
@@ -170,9 +174,15 @@ def _undecided(variety: Variety, why: str) -> Variety:
 
 
 def near_singular_point(chart: Chart, variety: Variety) -> Variety:
-    """Return the variety near a singular real point, if only such points were found; otherwise ``variety``."""
+    """Return the variety near a singular real point, if only such points were found; otherwise ``variety``.
+
+    With other values of a real parameter there may be others: y^2 = (a - 5) x^2 is a pair of lines for a > 5.
+    """
     real = variety.real
     if real is None or real.certain:
+        return variety
+    drawn = real.point.symbols.keys() - chart.setting.positive.union(chart.unknowns)
+    if any(s.args[0] == "parameter" for s in drawn):
         return variety
     local = numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:

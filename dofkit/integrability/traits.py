@@ -210,7 +210,7 @@ class Integrability:
     integral: str | None = None
 
 
-def proved_integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None) -> Integrability:
+def proved_integrability(form: Pfaffian, setting: Setting, alone: bool | None) -> Integrability:
     """Return the proof, if there is one, that a form is integrable on its own; without one it may still be.
 
     ``alone``: whether it is so at random points, None if undecided. An integral is searched for only with a proof, or
@@ -218,9 +218,10 @@ def proved_integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool 
     """
     if alone is False:
         return Integrability(False)
+    positive = setting.positive
     reason = proof(form, positive)
     plain = bool(form.coefficients) and not odd_constants(_ring(form, positive))
-    antiderivative = search.integrate(form, positive) if plain and (reason or alone) else None
+    antiderivative = search.integrate(form, positive, setting.reference) if plain and (reason or alone) else None
     if antiderivative is not None:
         return Integrability(True, "an integral was found and checked", antiderivative.factor, antiderivative.integral)
     return Integrability(reason is not None, reason or "")

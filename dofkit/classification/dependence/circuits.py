@@ -142,6 +142,7 @@ class _Basis:
                 alike = [k for k in result if finite[k] == finite[i] or result != support]
                 later = {o for k in alike if (o := self.owners[k]) > self.owners[i]}
                 self.uncounted |= {self.owners[i], *later} if later else set()
+                self.several |= bool(later) and self._rows.by_removal is not None
                 self.supports[i] = result
 
     def implies(self, kept: set[int], owner: int) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import NamedTuple
@@ -13,7 +13,11 @@ from dofkit.classification.dependence.implication import IMPLIED, follows
 from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
 from dofkit.classification.freedom.branches import AnsweredBlocks, Outcome, solve
 from dofkit.classification.freedom.preparation import all_of
+from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Redundancies, undecided_dependence
+from dofkit.relations.blocks import expressions_of
+from dofkit.relations.normal.domain import DomainCondition, conditions_of, is_always_satisfied
+from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, Normal, Reduced
 from dofkit.relations.setting import Setting
 
@@ -94,7 +98,7 @@ class _Implied:
 
 def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int], setting: Setting) -> list[Normal]:
     """Return the equations of constraint i that the constraints ``before`` and its earlier equations imply."""
-    premises = [n for j in before for n in reduced[j].normals]
+    premises = _premises(reduced, before, setting)
     implied = []
     for n in reduced[i].normals:
         if follows(n, premises, setting):
@@ -104,9 +108,26 @@ def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int]
     return implied
 
 
+def _premises(reduced: Sequence[Reduced], numbers: Iterable[int], setting: Setting) -> list[Normal]:
+    """Return the equations of some constraints, and what these as written require if the equations do not."""
+    selected = [reduced[i] for i in numbers]
+    required = [Normal((r.domain(),)) for r in selected if _loses_domain(r, setting.positive)]
+    return [*(n for r in selected for n in r.normals), *required]
+
+
+def _loses_domain(r: Reduced, positive: frozenset[Expr]) -> bool:
+    """Return whether the equations as written may have no value where those analysed do, as x^2/x = y at x = 0."""
+    written = [c for c in r.domain() if not is_always_satisfied(c, positive)]
+    pieces = [p for n in r.normals for b in n.branches for p in b] if written else []
+    kept = [c for p in pieces for e in expressions_of(p) for c in conditions_of(e, positive)]
+    kept += [p for p in pieces if isinstance(p, DomainCondition)]
+    outside = (([c.expr], kept) if c.sense == "!=" else ([], [*kept, DomainCondition(-c.expr, ">")]) for c in written)
+    return not all(hold_nowhere(*claims, positive) for claims in outside)
+
+
 def constraint_follows(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> bool | None:
     """Return whether all equations of a constraint are implied by others; None if undecided."""
-    premises = [n for j in others for n in reduced[j].normals]
+    premises = _premises(reduced, others, setting)
     return all_of(follows(n, premises, setting) for n in reduced[i].normals)
 
 
@@ -116,7 +137,7 @@ def _needed(
     """Return a minimal set of the others that implies some equations."""
 
     def imply(kept: Sequence[int]) -> bool:
-        premises = [n for k in kept for n in reduced[k].normals]
+        premises = _premises(reduced, kept, setting)
         return all(follows(n, premises, setting) for n in normals)
 
     return minimal_set(others, imply)

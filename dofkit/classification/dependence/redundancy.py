@@ -6,7 +6,6 @@ from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Literal
 
 from dofkit.base.deadline import unless_late
 from dofkit.base.verdicts import About, least, together
@@ -18,11 +17,9 @@ from dofkit.classification.dependence.near_reference import NearReference, is_at
 from dofkit.classification.freedom.branches import Outcome, off_reference
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
 from dofkit.exact.matrices.sparse import components
-from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import IDENTITY, Answer, Redundancies, undecided_dependence
-from dofkit.relations.blocks import Block, Row, coordinates_of, expressions_of
-from dofkit.relations.normal.domain import DomainCondition, conditions_of, is_always_satisfied
-from dofkit.relations.normal.no_solution import hold_nowhere
+from dofkit.relations.blocks import Block, Row, coordinates_of
+from dofkit.relations.normal.domain import DomainCondition, is_always_satisfied
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.setting import Setting
 
@@ -51,34 +48,18 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     elsewhere = {row.constraint for block, is_missed in missed if is_missed for row in block.rows}
     for numbers in _connected(reduced, outcome, bridged):
         of_part = setting if elsewhere.isdisjoint(numbers) else replace(setting, reference=None)
-        work = partial(_of_part, reduced, of_part, blocks, numbers)
+        work = partial(_of_relations, reduced, of_part, blocks, numbers)
         result += unless_late(work, [undecided_dependence(numbers)])
     return [_within_domain(r, reduced, setting) for r in result]
 
 
 def _within_domain(r: Redundancies, reduced: Sequence[Reduced], setting: Setting) -> Redundancies:
-    """Return ``r``, about a component only if a redundant constraint as written has no value at some points.
-
-    Undecided if a dependent one is not redundant, but may be so where all of them have a value.
-    """
-    dependent = {i for i, k in r.independent.items() if k < reduced[i].equations} - {*r.redundant, *r.undecided}
-    if dependent and any(_loses_domain(reduced[i], setting.positive) for i in r.independent):
-        return undecided_dependence(r.independent)
+    """Return ``r``, about a component only if a redundant constraint as written has no value at some points."""
     required = {c for i in r.redundant for c in reduced[i].domain() if not is_always_satisfied(c, setting.positive)}
     if not required:  # of many parts, each would look at all constraints otherwise
         return r
     by_others = {c for i, other in enumerate(reduced) if i not in r.redundant for c in other.domain()}
     return r if required <= by_others else _within(r, "component")
-
-
-def _loses_domain(r: Reduced, positive: frozenset[Expr]) -> bool:
-    """Return whether the equations as written may have no value where those analysed do, as x^2/x = y at x = 0."""
-    written = [c for c in r.domain() if not is_always_satisfied(c, positive)]
-    pieces = [p for n in r.normals for b in n.branches for p in b] if written else []
-    kept = [c for p in pieces for e in expressions_of(p) for c in conditions_of(e, positive)]
-    kept += [p for p in pieces if isinstance(p, DomainCondition)]
-    outside = (([c.expr], kept) if c.sense == "!=" else ([], [*kept, DomainCondition(-c.expr, ">")]) for c in written)
-    return not all(hold_nowhere(*claims, positive) for claims in outside)
 
 
 def _is_region(r: Reduced) -> bool:
@@ -114,25 +95,11 @@ def _connected(reduced: Sequence[Reduced], outcome: Outcome, bridged: Collection
     for i, r in enumerate(reduced):
         if i in bridged:
             continue
-        every = [p for n in r.normals for b in n.branches for p in b]
-        pieces = every if _is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
+        pieces = [p for n in r.normals for b in n.branches for p in b if not isinstance(p, Inequality)]
         if pieces and i not in outcome.copies:
             used.append(i)
-            names.append(frozenset().union(*map(coordinates_of, pieces)))
+            names.append(frozenset().union(*map(coordinates_of, (*pieces, *r.domain()))))
     return [[used[k] for k in numbers] for numbers in components(names)]
-
-
-def _of_part(
-    reduced: Sequence[Reduced], setting: Setting, blocks: BlocksOf, numbers: Sequence[int]
-) -> list[Redundancies]:
-    """Return the redundancies of connected constraints; those satisfied on regions are undecided."""
-    regions = [i for i in numbers if _is_region(reduced[i])]
-    if not regions:
-        return _of_relations(reduced, setting, blocks, numbers)
-    others = [i for i in numbers if i not in regions]
-    by_others = _of_relations(reduced, setting, blocks, others) if others else []
-    undecided = [Redundancies({i: 0}, groups=[(reduced[i].equations, [i])], undecided=(i,)) for i in regions]
-    return [*by_others, *undecided]
 
 
 def _of_relations(
@@ -142,7 +109,8 @@ def _of_relations(
     blocks = list({id(block): (block, a) for i in numbers for block, a in blocks_of.get(i, ())}.values())
     if _each_takes_one(reduced, numbers, blocks):
         return [_independent({i: reduced[i].equations for i in numbers})]
-    if not _measured_by_rank(reduced, setting, numbers, blocks):
+    on_a_region = any(i not in blocks_of for i in numbers)
+    if on_a_region or not _measured_by_rank(reduced, setting, numbers, blocks):
         return [_as_free(implied(reduced, setting, numbers), reduced, blocks)]
     numbered = _numbered(reduced[i] for i in numbers)
     answered = [
@@ -157,14 +125,12 @@ def _of_relations(
         undecided = undecided_dependence(o for rows in group for o in rows.owners)
         by_rank.append(unless_late(partial(analyse, group, needed), undecided))
     conditional = _has_piece(reduced, (i for r in by_rank for i in r.redundant), DomainCondition)
-    if conditional or _has_piece(reduced, (i for r in by_rank for i in r.uncounted), Pfaffian):
-        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
-    is_linear = all(a.linear for _, a in blocks)
-    scope = "everywhere" if is_linear else unless_late(partial(_scope, reduced, setting, numbers, by_rank), None)
-    if scope is False:
-        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
+    unsound = conditional or _has_piece(reduced, (i for r in by_rank for i in r.uncounted), Pfaffian)
+    linear: About | None = "everywhere" if all(a.linear for _, a in blocks) else None
+    work = partial(_scope, reduced, setting, numbers, by_rank)
+    scope = None if unsound else linear or unless_late(work, None)
     if scope is None:
-        return _agreed([*settled, *(_undecided_redundancy(r) for r in by_rank)])
+        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
     return [_within(r, scope) for r in _agreed([*settled, *by_rank])]
 
 
@@ -178,16 +144,10 @@ def _within(r: Redundancies, scope: About) -> Redundancies:
     return replace(r, claim=replace(r.claim, about=least(r.claim.about, scope)))
 
 
-def _undecided_redundancy(r: Redundancies) -> Redundancies:
-    """Return ``r`` with its redundant constraints undecided, because they may be needed at other points."""
-    independent = {i: k for i, k in r.independent.items() if i not in r.redundant}
-    return Redundancies(independent, undecided=tuple(r.redundant), claim=r.claim)
-
-
 def _scope(
     reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], by_rank: Sequence[Redundancies]
-) -> About | Literal[False] | None:
-    """Return for which points the redundancy by rank is valid; False if it fails on some component, None if undecided.
+) -> About | None:
+    """Return for which points the redundancy by rank is valid; None if it fails on some component, or is undecided.
 
     x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
     Only few algebraic equations are examined on all components, and these may miss one, so that the claim is about the
@@ -205,9 +165,7 @@ def _scope(
         return "component"
     kept = [i for i in finite if i not in dropped]
     follow = all_of(constraint_follows(reduced, i, kept, setting) for i in dropped if i in finite)
-    if len(finite) < len(numbers):
-        return False if follow is False else "component"
-    return "component" if follow else follow
+    return "component" if follow or (follow is None and len(finite) < len(numbers)) else None
 
 
 def _as_free(implied: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
@@ -285,7 +243,9 @@ def _of_block(
         of_kind = NearReference if is_at_reference(block, a, setting) else Everywhere
         implied = None if sure or nullity <= 0 else of_kind(block, setting)
         claim = a.claim if sure or a.linear else together(ROWS, IMPLIED)
-        yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied, claim, by_removal)
+        yield OwnedRows(
+            matrix, owners, finite, a.modulus, equations, a.supports, implied, claim, by_removal if is_finite else None
+        )
 
 
 def _independent(counted: Mapping[int, int]) -> Redundancies:

@@ -45,6 +45,7 @@ OFF_REFERENCE = (
     "not for the reference configuration itself"
 )
 WINDS = "an angle in space was considered within half a turn of the reference configuration only"
+LENGTH_LEFT_OUT = "no value of a length that was left out allows a motion: give the length, or leave the constraint out"
 KINKED = "the argument of an absolute value vanishes at the reference configuration, so there is no derivative"
 
 
@@ -158,9 +159,13 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
         anywhere = replace(setting, reference=None)
         best, chosen = _through_reference(reduced, anywhere, AnsweredBlocks(anywhere))
     best.answers = _about_component(_with_reference_checked(best, setting), best.blocks, chosen)
-    others = [r for r in reduced if not r.constraint.winds]
-    if best.consistent is False and len(others) < len(reduced) and solve(others, setting).consistent is not False:
-        best.answers = [Answer(None, verdict="undecided", reasons=[WINDS]) for _ in best.answers]
+    if best.consistent is False:
+        lengths = frozenset(p for p in setting.generic if str(p.args[1]).startswith("_L"))
+        generic = [bool(lengths) and any(lengths & e.expr.symbols for e in r.written) for r in reduced]
+        others = [r for r, left_out in zip(reduced, generic, strict=True) if not (left_out or r.constraint.winds)]
+        if len(others) < len(reduced) and solve(others, setting).consistent is not False:
+            why = LENGTH_LEFT_OUT if any(generic) else WINDS
+            best.answers = [Answer(None, verdict="undecided", reasons=[why]) for _ in best.answers]
     return best
 
 
@@ -249,13 +254,9 @@ def _about_component(answers: Sequence[Answer], blocks: Sequence[Block], chosen:
 
 def _one_sided(reduced: Sequence[Reduced], positive: frozenset[Expr]) -> tuple[list[int], list[int]]:
     """Return (constraints with an inequality that is satisfied nowhere, those for which this is undecided)."""
-    satisfiable = {
-        i: [holds_somewhere(q.expr, q.strict, positive) for q in r.inequalities]
-        for i, r in enumerate(reduced)
-        if r.inequalities
-    }
-    never = [i for i, holds in satisfiable.items() if False in holds]
-    return never, [i for i, holds in satisfiable.items() if None in holds and False not in holds]
+    holds = {i: [holds_somewhere(q.expr, q.strict, positive) for q in r.inequalities] for i, r in enumerate(reduced)}
+    never = [i for i, each in holds.items() if False in each]
+    return never, [i for i, each in holds.items() if None in each and False not in each]
 
 
 def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> Outcome:

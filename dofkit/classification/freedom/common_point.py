@@ -196,7 +196,8 @@ def at_one_point(
     outside = {c for _, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})}
     if not outside:
         return CommonPoint(kept, result)
-    names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in domain)]
+    names = [frozenset[Hashable]((*b.coordinates, *(row.constraint for row in b.rows))) for b in written]
+    names += [coordinates_in(c.expr) or frozenset((owner,)) for owner, c in domain]
     free_values: dict[Expr, str] = {}
     failed: dict[bool | None, list[int]] = {False: [], None: []}
     for numbers in components(names):
@@ -220,16 +221,6 @@ def at_one_point(
             kept[i], result[i] = written[i], _not_consistent(result[i], a, OUTSIDE)
     together = simultaneous(written, result)
     return CommonPoint(kept, together, free_values, tuple(failed[False]), tuple(failed[None]))
-
-
-def _names(block: Block) -> frozenset[Hashable]:
-    """Return the coordinates of a block and the numbers of its constraints."""
-    return frozenset((*block.coordinates, *(row.constraint for row in block.rows)))
-
-
-def _names_of(c: DomainCondition, owner: int) -> frozenset[Hashable]:
-    """Return the coordinates of a condition, or its constraint if it has none."""
-    return coordinates_in(c.expr) or frozenset((owner,))
 
 
 def _with_conditions(blocks: Sequence[Block], domain: Sequence[tuple[int, DomainCondition]]) -> list[Block]:

@@ -240,7 +240,8 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     for i, r in enumerate(reduced):
         check()
         if r.normals and not r.inequalities and not any(_is_not_compared(normal) for normal in r.normals):
-            alike.setdefault(_mentioned(r.normals), []).append(i)
+            mentioned = frozenset([frozenset[str]().union(*map(coordinates_of, n.pieces)) for n in r.normals])
+            alike.setdefault(mentioned, []).append(i)
     seen: dict[Hashable, int] = {}
     result = {}
     for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
@@ -249,11 +250,6 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
         if original != i:
             result[i] = original
     return result
-
-
-def _mentioned(normals: Sequence[Normal]) -> Hashable:
-    """Return a key that is equal for multiples of the same relations: the sets of coordinates that they mention."""
-    return frozenset([frozenset[str]().union(*map(coordinates_of, normal.pieces)) for normal in normals])
 
 
 def _is_not_compared(normal: Normal) -> bool:

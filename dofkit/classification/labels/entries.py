@@ -108,7 +108,8 @@ def _dependences(
         independent.update(result.independent)
         implied |= {i: implied.get(i, frozenset()).union(more) for i, more in result.equations.items()}
     uncounted = {i for result in dependent for i in result.uncounted}
-    counted = independent.keys() - _unmeasured(outcome) - uncounted
+    unmeasured = {r.constraint for block, a in outcome.answered_parts if a.velocity_dof is None for r in block.rows}
+    counted = independent.keys() - unmeasured - uncounted
     circuits = {i: c for result in dependent for i, c in result.circuits.items() if all(j < i for j in c)}
     redundant = {i for result in dependent for i in result.redundant}
     undecided = dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for result in dependent for i in result.undecided}
@@ -134,11 +135,6 @@ def labels_in_system(
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
     return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(labelled, reduced, strict=True)]
-
-
-def _unmeasured(outcome: Outcome) -> set[int]:
-    """Return the constraints of blocks whose velocity freedom is unknown, so that their equations are not counted."""
-    return {r.constraint for block, a in outcome.answered_parts if a.velocity_dof is None for r in block.rows}
 
 
 def _with_others(i: int, rows: Sequence[LabelledRow], company: Companionship, in_system: bool) -> Others:

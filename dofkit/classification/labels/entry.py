@@ -275,7 +275,7 @@ def _proofs(form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, set
         return [Integrability(False) for _ in forms]
     labels = [label.holonomic for label in by_itself.labels.values()]
     single = labels[0] if len(labels) == 1 else None
-    return [proved_integrability(f, setting.positive, single) for f in forms]
+    return [proved_integrability(f, setting, single) for f in forms]
 
 
 def label_in_system(

@@ -12,6 +12,7 @@ text has its own message. So the rules are the methods below, from loosest to ti
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from typing import Any, NoReturn, cast
@@ -20,7 +21,7 @@ from dofkit.base.errors import TextError
 from dofkit.expressions.calculus import is_differential, over_dt
 from dofkit.expressions.real_values import Comparison, RelationSign, Requirement, bounded, inverse, of_power, raised
 from dofkit.expressions.text.characters import FRACTION_MARK, MAX_DEPTH
-from dofkit.expressions.text.names import AmbiguousError, Names, derivative
+from dofkit.expressions.text.names import AmbiguousError, Names, derivative, unknown_name
 from dofkit.expressions.text.tokens import Token, Tokens
 from dofkit.expressions.tree import DT, MINUS_ONE, PI, TIME, ZERO, E, Expr, add, fn, mul, num
 
@@ -121,7 +122,10 @@ class TextReader:
         self.fail(f"something is missing before `{what}`", token, hint)
 
     def _unexpected_comma(self, token: Token) -> NoReturn:
-        """Raise TextError for a comma where none can stand: between two relations, or in a decimal."""
+        """Raise TextError for a comma that cannot stand: after an unknown function, between relations, in a decimal."""
+        called = re.search(r"([^\W\d]\w*)\((?:[^()]|\([^()]*\))*$", self.text[: token.start])
+        if called is not None and self.names.lookup.meaning(called[1]) is None:
+            raise unknown_name(called[1], self.names.lookup, self.columns[called.start()], True)
         index = self.tokens.index(token)
         if all(any(t.kind == "relation" for t in side) for side in (self.tokens[:index], self.tokens[index:])):
             first, second = self.source(0, token.start), self.source(token.end, len(self.text))

@@ -7,7 +7,7 @@ and trigonometric functions of linear arguments, so that common forms need no Sy
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TypeVar
 
@@ -17,7 +17,8 @@ from dofkit.exact.ring.canonical import Canon, is_identically_zero, quotients_of
 from dofkit.exact.ring.program import TooLargeError, none_without_value, raising_no_value
 from dofkit.exact.ring.quotients import MAX_TERMS, Quotient, factored, rationalised
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, expand
+from dofkit.expressions.calculus import diff, expand, substitute
+from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy, integrators
 from dofkit.expressions.tree import Expr
 
@@ -38,8 +39,9 @@ class GivenUpError(Exception):
 class Algebra:
     """Canonical forms of expressions, within one budget of steps and seconds; ``positive`` symbols are > 0."""
 
-    def __init__(self, positive: frozenset[Expr]) -> None:
+    def __init__(self, positive: frozenset[Expr], reference: Mapping[Expr, Expr] | None = None) -> None:
         self.positive = positive
+        self.reference = {**(reference or {}), ex.TIME: ex.ZERO}
         self.steps = STEPS
         self.seconds = SECONDS
         self._tidied: dict[Expr, Expr] = {}
@@ -97,6 +99,13 @@ class Algebra:
     def _is_zero(self, e: Expr) -> bool | None:
         self.spend([e])
         return is_identically_zero(e, self.positive)
+
+    def with_values(self, e: Expr) -> Expr:
+        """Return ``e`` with log(-u) for log(u), which has the same differential, if u < 0 at the reference."""
+        operands = tuple(map(self.with_values, ex.children(e)))
+        if e.op == "fn" and e.args[0] == "log" and (approximate(substitute(operands[0], self.reference)) or 0) < 0:
+            return ex.fn("log", -operands[0])
+        return ex.rebuild(e, operands) if operands else e
 
     def closed(self, form: dict[Expr, Expr]) -> bool:
         """Return whether d(omega) = 0 is proved for the form omega."""

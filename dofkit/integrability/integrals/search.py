@@ -6,7 +6,7 @@ point; a form for which no rule applies gives None. The work is bounded by a num
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, combinations, count
 
@@ -45,9 +45,14 @@ class Integral:
     integral: str
 
 
-def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
-    """Return f = C and mu with a proof of df = mu omega in (q, t), or None where no rule applies."""
-    work = Algebra(positive)
+def integrate(
+    form: Pfaffian, positive: frozenset[Expr], reference: Mapping[Expr, Expr] | None = None
+) -> Integral | None:
+    """Return f = C and mu with a proof of df = mu omega in (q, t), or None where no rule applies.
+
+    Logarithms in f have values at the ``reference`` configuration.
+    """
+    work = Algebra(positive, reference)
     try:
         return _integrate(work, form)
     except (GivenUpError, RecursionError, ArithmeticError):
@@ -65,7 +70,7 @@ def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
         if f is not None:
             for integral in dict.fromkeys((arranged(upright(f)), arranged(f), f)):
                 if _proved(work, omega, (integral, ex.ONE)):
-                    return Integral(None, _equation(integral, omega))
+                    return Integral(None, _equation(work, integral, omega))
     return _with_factor(work, omega)
 
 
@@ -80,14 +85,14 @@ def _with_factor(work: Algebra, form: Form) -> Integral | None:
                 break
     except GivenUpError:
         pass
-    return None if best is None else Integral(to_text(best[1]), _equation(best[0], form))
+    return None if best is None else Integral(to_text(best[1]), _equation(work, best[0], form))
 
 
-def _equation(integral: Expr, form: Form) -> str:
+def _equation(work: Algebra, integral: Expr, form: Form) -> str:
     """Return ``f = C`` as text; the constant is named C1, C2, ... if C occurs in the form."""
     names = {s.args[1] for s in form} | {s.args[1] for a in form.values() for s in a.symbols}
     constant = next(name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in names)
-    return f"{to_text(integral)} = {constant}"
+    return f"{to_text(work.with_values(integral))} = {constant}"
 
 
 def _pairs(work: Algebra, form: Form) -> Iterator[Pair]:

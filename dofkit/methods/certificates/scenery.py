@@ -29,6 +29,7 @@ from dofkit.checker.trees import (
     symbol,
     times,
 )
+from dofkit.exact.ring.quotients import bounded
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError
 
 
@@ -263,6 +264,7 @@ def branches(scenery: Scenery, name: str) -> Iterator[str]:
         if above == 0:
             scenery.add_step({**back, "c": {source: text_of(factor) for source, factor in c.items()}})
             return
+        refuse(not bounded(above), "a polynomial too large to be factored")
         constant, factors = above.factor()
         texts = [polynomial_text(ring, factor) for factor, often in factors for _ in range(often)]
         branch, step = max(texts, key=len), f"{scenery.label}branch of {name}"
