@@ -11,7 +11,7 @@ from flint import fmpq_mat
 from dofkit.checker.curves import LEAST, MOST
 from dofkit.checker.evidence import CheckedEvidence, CheckedMinor, Told, field_named, independent, span
 from dofkit.checker.point import CheckedPoint, not_zero
-from dofkit.checker.trees import derivative, refuse
+from dofkit.checker.trees import refuse
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
