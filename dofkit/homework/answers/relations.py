@@ -10,7 +10,7 @@ from typing import NamedTuple
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations
 from dofkit.expressions.text.names import in_words
-from dofkit.expressions.tree import Expr, coordinate, parameter
+from dofkit.expressions.tree import PI, Expr, coordinate, nodes, num, parameter
 from dofkit.homework.answers.declared import DeclaredNames, usual_name
 from dofkit.homework.answers.notation import Script
 from dofkit.homework.answers.pieces import Pieces, pieces_of, plainer
@@ -71,6 +71,15 @@ class AnswerReading(NamedTuple):
     def on_coordinates(self) -> bool:
         """Whether the relations contain coordinates of the scene."""
         return any(s.args[0] != "parameter" and s.args[-1] not in self.undeclared for s in self.symbols)
+
+    def is_rounded(self, names: Names) -> bool:
+        """Return whether decimals occur that may be rounded (no declared values, more digits than 0.7 or 4.9)."""
+        terms = [n for c in self.relations for e in (c.left, c.right) for n in nodes(e)]
+        degrees = [num(180) * n.args[1] / PI for n in terms if n.op == "fn" and n.args[0] in ("sin", "cos", "tan")]
+        numbers = [n.args[0] for n in terms if n.op == "num" and n not in names.parameters.values()]
+        decimals = [n for n in numbers if n.denominator % 5 == 0 and 10**6 % n.denominator == 0]
+        angles = [d.args[0].denominator for d in degrees if d.op == "num"]
+        return any(d > 1 for d in angles) or any(max(n.denominator, abs(n.numerator) / 10) > 10 for n in decimals)
 
     def with_own(self, names: Iterable[str]) -> AnswerReading:
         """Return the reading with the given coordinates as undeclared names."""

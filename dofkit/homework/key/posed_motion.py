@@ -68,7 +68,9 @@ def motion_readings(answer: Given, names: DeclaredNames, value: bool) -> list[Re
         if sum(side.bare) != 1:
             raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
     sides = with_explained_names([s._replace(undeclared=tuple(_strange(s, value))) for s in sides], names) and sides
-    return [Reading(side, _shown_reading(side, value), side.rank, not _strange(side, value)) for side in sides]
+    return [
+        Reading(s, _shown_reading(s, value), s.rank, not _strange(s, value), s.is_rounded(names.names)) for s in sides
+    ]
 
 
 def _strange(reading: AnswerReading, value: bool) -> list[str]:
