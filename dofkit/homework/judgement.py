@@ -36,7 +36,7 @@ class Reading(NamedTuple):
 
     ``value``: what the question judges; ``text``: the value in words or in the grammar of scenes. ``rank``: 0 for the
     plainest readings, larger for less usual ones. ``certain``: whether all its names are declared. ``rounded``: whether
-    it contains rounded numbers, for which it loses no points without a review.
+    it contains rounded numbers, so that it is not wrong without a review.
     """
 
     value: Any
@@ -121,7 +121,7 @@ def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) 
         except TextError as error:
             failure = failure or error
             continue
-        if reading.rounded and judgement.status in ("wrong", "partly"):
+        if reading.rounded and judgement.status == "wrong":
             judgement = needs_review(reading.text, "it contains rounded numbers.")
         judged.append((reading.rank, judgement if judgement.read_as else replace(judgement, read_as=reading.text)))
         if reading.rank > judged[0][0] and judgement.share != judged[0][1].share:

@@ -9,6 +9,8 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from dofkit.base.errors import DofkitError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.declared import DeclaredNames
@@ -93,7 +95,7 @@ class Lagrangian(_Value):
 
 
 class _OfCoordinate(_Value):
-    """Momenta and forces; an answer that is right only before the elimination of coordinates needs a review."""
+    """Momenta and forces; an answer that may be right in other coordinates or conventions needs a review."""
 
     #: The code of a wrong answer.
     code: ClassVar[str]
@@ -103,6 +105,11 @@ class _OfCoordinate(_Value):
         """Return the right expressions (in the remaining coordinates or None, before elimination)."""
         raise NotImplementedError
 
+    def _others(self, reduced: Expr, unreduced: Expr, motion: RightMotion) -> list[Expr]:
+        """Return the expression before elimination, if coordinates are eliminated."""
+        del reduced
+        return [unreduced] if motion.motions else []
+
     def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
         reduced, unreduced = self._right(motion)
         wanted = unreduced if reduced is None else reduced
@@ -111,9 +118,9 @@ class _OfCoordinate(_Value):
             return right(text)
         if same is None:
             return needs_review(text, "it could not be decided whether this is equal to the correct expression.")
-        if motion.motions and reduced is not None and motion.zero(expression - unreduced) is not False:
-            why = "it may be written in the original coordinates, before the constraints are substituted."
-            return needs_review(text, why)
+        others = [] if reduced is None else self._others(reduced, unreduced, motion)
+        if reduced is None or any(motion.zero(expression - other) is not False for other in others):
+            return needs_review(text, "it may be right for other generalized coordinates, or in another convention.")
         if motion.zero(expression + wanted):
             return wrong(text, "SIGN")
         return wrong(text, self.code)
@@ -141,6 +148,12 @@ class GeneralizedForce(_OfCoordinate):
 
     def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
         return motion.forces.get(self.coordinate), motion.unreduced[self.coordinate][1]
+
+    def _others(self, reduced: Expr, unreduced: Expr, motion: RightMotion) -> list[Expr]:
+        """Return also the forces without the derivative of T, and of L, by the coordinate."""
+        energies = ((motion.total + motion.lagrangian) * ex.HALF, motion.lagrangian)
+        forces = [reduced - diff(e, ex.coordinate(self.coordinate)) for e in energies]
+        return super()._others(reduced, unreduced, motion) + [force for force in forces if not force.is_zero]
 
 
 class MotionQuestion(_MotionQuestion):
