@@ -73,13 +73,14 @@ class AnswerReading(NamedTuple):
         return any(s.args[0] != "parameter" and s.args[-1] not in self.undeclared for s in self.symbols)
 
     def is_rounded(self, names: Names) -> bool:
-        """Return whether decimals occur that may be rounded (no declared values, more digits than 0.7 or 4.9)."""
+        """Return whether decimals occur that may be rounded: 0.67 and 4.9, not 0.7, nor a declared value."""
         terms = [n for c in self.relations for e in (c.left, c.right) for n in nodes(e)]
         degrees = [num(180) * n.args[1] / PI for n in terms if n.op == "fn" and n.args[0] in ("sin", "cos", "tan")]
-        numbers = [n.args[0] for n in terms if n.op == "num" and n not in names.parameters.values()]
+        exact = [e.args[0] for e in names.parameters.values() if e.op == "num"]
+        numbers = [n for e in terms if e.op == "num" and (n := abs(e.args[0])) not in exact]
         decimals = [n for n in numbers if n.denominator % 5 == 0 and 10**6 % n.denominator == 0]
         angles = [d.args[0].denominator for d in degrees if d.op == "num"]
-        return any(d > 1 for d in angles) or any(max(n.denominator, abs(n.numerator) / 10) > 10 for n in decimals)
+        return any(d > 1 for d in angles) or any(max(n.numerator, n.denominator) > 10 for n in decimals)
 
     def with_own(self, names: Iterable[str]) -> AnswerReading:
         """Return the reading with the given coordinates as undeclared names."""
