@@ -50,6 +50,8 @@ _ALONE = re.compile(r"(?<![\w^*/+.-])(?:\d{1,4}|[^\W\d_]+)(?![\w^*/+.])")
 _OTHERS = words("n k f dof x y z t theta phi")
 _NAMED = re.compile(r"\s*([^\W\d_]+)\s*(?:=|[<>≤≥≠∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)\b)")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
+#: A side of an equation between coordinates, which is not a number: `x^2 + y^2`, `z_C`.
+_FORMULA = re.compile(r"[^\W\d]\w*\s*(?:\^|\*\*|[²³])|\b(?:sin|cos|tan)\b|(?:\A|=)\s*[xyz]_?\w{0,2}\s*=")
 _WORD = pattern("counts: word")
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
@@ -180,6 +182,8 @@ def _segment(script: Script, others: frozenset[str]) -> Fraction | None:
             failure = None
         elif cut[0] >= len(text):
             failure = failure or TextError("there is no number here", 1, _HINT)
+    if amounts and _FORMULA.search(text):
+        raise DoubtError("it is labelled as a different quantity.", script.columns[0], _HINT)
     if len(set(amounts)) > 1:
         raise DoubtError("its numbers contradict each other.", script.columns[0], _HINT)
     if failure is not None and not amounts:
