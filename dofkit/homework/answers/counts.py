@@ -91,10 +91,12 @@ def number(answer: object, called: frozenset[str] = frozenset(), foreign: frozen
             first = first or segment.moved(error)
             unread |= _numbers_alone(segment.text)
             continue
-        if amount is not None and segment not in named and (segment in strange or _is_foreign(segment.text, foreign)):
+        if amount is None:
+            continue
+        different = segment in strange or _is_foreign(segment.text, foreign) or _FORMULA.search(segment.text)
+        if different and segment not in named:
             raise DoubtError("it is labelled as a different quantity.", segment.columns[0], _HINT)
-        if amount is not None:
-            amounts.add(amount)
+        amounts.add(amount)
     if not amounts:
         raise first or TextError("there is no number in this answer", 1, _HINT)
     if len(amounts) > 1 or (not named and not amounts >= unread):
@@ -135,17 +137,13 @@ def _segments(script: Script) -> Iterator[Script]:
                 raise DoubtError("it gives more than one number.", inside.columns[0], _HINT)
             if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
                 yield inside
-            script = script.replaced(re.compile(re.escape(group[0])), _blank)
+            script = script.replaced(re.compile(re.escape(group[0])), lambda m: " " * len(m[0]))
     place = 0
     for cut in [*(m.span() for m in _SEGMENT.finditer(script.text)), (len(script.text), len(script.text))]:
         part = script.cut(place, cut[0])
         if part.text.strip():
             yield part
         place = cut[1]
-
-
-def _blank(match: re.Match[str]) -> str:
-    return " " * len(match[0])
 
 
 def _only_number(text: str) -> bool:
@@ -182,8 +180,6 @@ def _segment(script: Script, others: frozenset[str]) -> Fraction | None:
             failure = None
         elif cut[0] >= len(text):
             failure = failure or TextError("there is no number here", 1, _HINT)
-    if amounts and _FORMULA.search(text):
-        raise DoubtError("it is labelled as a different quantity.", script.columns[0], _HINT)
     if len(set(amounts)) > 1:
         raise DoubtError("its numbers contradict each other.", script.columns[0], _HINT)
     if failure is not None and not amounts:
@@ -226,13 +222,10 @@ def _counted(match: re.Match[str], leads: bool) -> str:
     word = plain(match[0]).replace(". ", "").replace(".", "")
     if word in _OPERATORS:
         return _OPERATORS[word]
-    if word in NUMBERS and not (word in ("un", "une", "una", "um", "uma", "a") and _before_number(match)):
+    article = word in ("un", "une", "una", "um", "uma", "a") and re.match(r"\s*\d", match.string[match.end() :])
+    if word in NUMBERS and not article:
         return str(NUMBERS[word])
     return "" if word in UNITS or (leads and word in LEADING) else match[0]
-
-
-def _before_number(match: re.Match[str]) -> bool:
-    return re.match(r"\s*\d", match.string[match.end() :]) is not None
 
 
 def _arithmetic(script: Script) -> Fraction:

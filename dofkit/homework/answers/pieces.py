@@ -95,7 +95,11 @@ def _joined(script: Script) -> list[Script]:
     for match in re.finditer(r"[\r\n]+", text):
         before, after = text[: match.start()].rstrip(), text[match.end() :].lstrip()
         line = after.splitlines()[0] if after else ""
-        bulleted = after[:1] in ("-", "+", "*", "•") and _RELATION.search(line) and _RELATION.search(_last_line(before))
+        bulleted = (
+            after[:1] in ("-", "+", "*", "•")
+            and _RELATION.search(line)
+            and _RELATION.search(before.splitlines()[-1] if before else "")
+        )
         goes_on = (after[:1] in tuple("+-*/=<>)^") and not bulleted) or before[-1:] in tuple("+-*/=(<>^,")
         if not goes_on or before[-1:] == ",":
             cuts.append(match.span())
@@ -107,10 +111,6 @@ def _joined(script: Script) -> list[Script]:
     if len(joined) > 1 and all(bullet.match(script_line.text) for script_line in joined if script_line.text.strip()):
         joined = [script_line.replaced(bullet, "") for script_line in joined]
     return joined
-
-
-def _last_line(text: str) -> str:
-    return text.splitlines()[-1] if text else ""
 
 
 def _at_signs(text: str) -> Iterator[tuple[int, int]]:

@@ -61,20 +61,16 @@ def _judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
 
 
 def _with_constants(reading: AnswerReading, key: Key) -> Read:
-    """Return the answer with each expression without `=` set equal to a new constant: `x y` is x y = C.
-
-    The constant of both sides of `s + C = R phi + C` is none.
-    """
+    """Return the answer, `x y` as x y = C with a new constant; that of both sides of `s + C = R phi + C` is none."""
     own = {parameter(n) for n in reading.undeclared}
     constants = own & {s for c in reading.relations for s in (c.left - c.right).symbols}
+    fresh = (parameter(n) for n in _FRESH if key.declared.names.lookup.meaning(n) is None)
     relations = []
     for c, bare in zip(reading.relations, reading.bare, strict=True):
         c = c.substituted(dict.fromkeys(own - constants, ONE))
         if bare and not own:
-            named = {str(s.args[1]) for s in constants}
-            fresh = next(n for n in _FRESH if n not in named and key.declared.names.lookup.meaning(n) is None)
-            constants.add(parameter(fresh))
-            c = Comparison(c.left, "=", parameter(fresh), c.column)
+            c = Comparison(c.left, "=", next(fresh), c.column)
+            constants.add(c.right)
         relations.append(c)
     return reading._replace(relations=tuple(relations)).read(frozenset(str(s.args[1]) for s in constants))
 

@@ -105,10 +105,9 @@ class _OfCoordinate(_Value):
         """Return the right expressions (in the remaining coordinates or None, before elimination)."""
         raise NotImplementedError
 
-    def _others(self, reduced: Expr, unreduced: Expr, motion: RightMotion) -> list[Expr]:
-        """Return the expression before elimination, if coordinates are eliminated."""
-        del reduced
-        return [unreduced] if motion.motions else []
+    def _others(self, motion: RightMotion) -> list[Expr]:
+        """Return what may be right in other conventions: the expression before elimination."""
+        return [self._right(motion)[1]] if motion.motions else []
 
     def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
         reduced, unreduced = self._right(motion)
@@ -118,8 +117,7 @@ class _OfCoordinate(_Value):
             return right(text)
         if same is None:
             return needs_review(text, "it could not be decided whether this is equal to the correct expression.")
-        others = [] if reduced is None else self._others(reduced, unreduced, motion)
-        if reduced is None or any(motion.zero(expression - other) is not False for other in others):
+        if reduced is None or any(motion.zero(expression - other) is not False for other in self._others(motion)):
             return needs_review(text, "it may be right for other generalized coordinates, or in another convention.")
         if motion.zero(expression + wanted):
             return wrong(text, "SIGN")
@@ -149,11 +147,11 @@ class GeneralizedForce(_OfCoordinate):
     def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
         return motion.forces.get(self.coordinate), motion.unreduced[self.coordinate][1]
 
-    def _others(self, reduced: Expr, unreduced: Expr, motion: RightMotion) -> list[Expr]:
+    def _others(self, motion: RightMotion) -> list[Expr]:
         """Return also the forces without the derivative of T, and of L, by the coordinate."""
         energies = ((motion.total + motion.lagrangian) * ex.HALF, motion.lagrangian)
-        forces = [reduced - diff(e, ex.coordinate(self.coordinate)) for e in energies]
-        return super()._others(reduced, unreduced, motion) + [force for force in forces if not force.is_zero]
+        forces = [motion.forces[self.coordinate] - diff(e, ex.coordinate(self.coordinate)) for e in energies]
+        return super()._others(motion) + [force for force in forces if not force.is_zero]
 
 
 class MotionQuestion(_MotionQuestion):
@@ -193,14 +191,11 @@ class MotionQuestion(_MotionQuestion):
         place = motion.names.index(self.coordinate or "")
         if not any(is_zero(row[place], motion.positive) is False for row in rows):
             return wrong(text, Found.TRIVIAL.value)
-        if len(rows) == 1 and len(motion.names) > 1 and self._of_another(rows[0], answered, motion, place):
-            return wrong(text, "OTHER_COORDINATE")
+        if len(rows) == 1 and len(motion.names) > 1:
+            proportional = [_proportional(rows[0][:-1], other[:-1], motion.positive) for other in answered.right]
+            if not proportional[place] and any(proportional):
+                return wrong(text, "OTHER_COORDINATE")
         return right(text)
-
-    def _of_another(self, row: Sequence[Expr], answered: AnsweredMotion, motion: RightMotion, place: int) -> bool:
-        """Return whether a row is a multiple of another coordinate's equation, and not of the one at ``place``."""
-        proportional = [_proportional(row[:-1], other[:-1], motion.positive) for other in answered.right]
-        return not proportional[place] and any(proportional)
 
     def _solution(self, motion: RightMotion) -> Sentence:
         of_coordinates = motion.equations
