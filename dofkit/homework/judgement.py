@@ -35,13 +35,15 @@ class Reading(NamedTuple):
     """One way to understand an answer, by its text, the question's kind and the declared names alone.
 
     ``value``: what the question judges; ``text``: the value in words or in the grammar of scenes. ``rank``: 0 for the
-    plainest readings, larger for less usual ones. ``certain``: whether all its names are declared.
+    plainest readings, larger for less usual ones. ``certain``: whether all its names are declared. ``rounded``: whether
+    it contains rounded numbers, so that it is not wrong without a review.
     """
 
     value: Any
     text: str
     rank: int = 0
     certain: bool = True
+    rounded: bool = False
 
 
 @dataclass(frozen=True)
@@ -119,6 +121,8 @@ def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) 
         except TextError as error:
             failure = failure or error
             continue
+        if reading.rounded and judgement.status == "wrong":
+            judgement = needs_review(reading.text, "it contains rounded numbers.")
         judged.append((reading.rank, judgement if judgement.read_as else replace(judgement, read_as=reading.text)))
         if reading.rank > judged[0][0] and judgement.share != judged[0][1].share:
             break

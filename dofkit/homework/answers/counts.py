@@ -50,6 +50,8 @@ _ALONE = re.compile(r"(?<![\w^*/+.-])(?:\d{1,4}|[^\W\d_]+)(?![\w^*/+.])")
 _OTHERS = words("n k f dof x y z t theta phi")
 _NAMED = re.compile(r"\s*([^\W\d_]+)\s*(?:=|[<>≤≥≠∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)\b)")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
+#: A side of an equation between coordinates, which is not a number: `x^2 + y^2`, `z_C`.
+_FORMULA = re.compile(r"[^\W\d]\w*\s*(?:\^|\*\*|[²³])|\b(?:sin|cos|tan)\b|(?:\A|=)\s*[xyz]_?\w{0,2}\s*=")
 _WORD = pattern("counts: word")
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
@@ -89,10 +91,12 @@ def number(answer: object, called: frozenset[str] = frozenset(), foreign: frozen
             first = first or segment.moved(error)
             unread |= _numbers_alone(segment.text)
             continue
-        if amount is not None and segment not in named and (segment in strange or _is_foreign(segment.text, foreign)):
+        if amount is None:
+            continue
+        different = segment in strange or _is_foreign(segment.text, foreign) or _FORMULA.search(segment.text)
+        if different and segment not in named:
             raise DoubtError("it is labelled as a different quantity.", segment.columns[0], _HINT)
-        if amount is not None:
-            amounts.add(amount)
+        amounts.add(amount)
     if not amounts:
         raise first or TextError("there is no number in this answer", 1, _HINT)
     if len(amounts) > 1 or (not named and not amounts >= unread):
@@ -218,13 +222,10 @@ def _counted(match: re.Match[str], leads: bool) -> str:
     word = plain(match[0]).replace(". ", "").replace(".", "")
     if word in _OPERATORS:
         return _OPERATORS[word]
-    if word in NUMBERS and not (word in ("un", "une", "una", "um", "uma", "a") and _before_number(match)):
+    article = word in ("un", "une", "una", "um", "uma", "a") and re.match(r"\s*\d", match.string[match.end() :])
+    if word in NUMBERS and not article:
         return str(NUMBERS[word])
     return "" if word in UNITS or (leads and word in LEADING) else match[0]
-
-
-def _before_number(match: re.Match[str]) -> bool:
-    return re.match(r"\s*\d", match.string[match.end() :]) is not None
 
 
 def _arithmetic(script: Script) -> Fraction:

@@ -69,10 +69,6 @@ ARROW = "⇒"
 _WIDE = re.compile("[\uff01-\uff5e]")
 
 
-def _mended(match: re.Match[str]) -> str:
-    return "\\" + CONTROLS[match[0][0]] + match[0][1:]
-
-
 def _braced(argument: str) -> str:
     """Return an argument of a command with braces around it if it is a single character."""
     return f"{{{argument}}}" if len(argument) == 1 else argument
@@ -182,7 +178,8 @@ def _unboxed(script: Script) -> Script:
 
 def script_of(text: str) -> Script:
     """Return a text in plain notation; what no rule covers is unchanged, and may be rejected by the parser."""
-    script = Script.of(text).replaced(BROKEN_COMMAND, _mended).replaced(_WIDE, lambda wide: chr(ord(wide[0]) - 0xFEE0))
+    script = Script.of(text).replaced(BROKEN_COMMAND, lambda m: "\\" + CONTROLS[m[0][0]] + m[0][1:])
+    script = script.replaced(_WIDE, lambda m: chr(ord(m[0]) - 0xFEE0))
     if script.text.isascii() and not _ODD.search(script.text):
         return script
     script = _unboxed(_as_equation(script))

@@ -22,9 +22,10 @@ _NUMBER_AFTER = re.compile(r"(?<=[^\s=+\-−*·×/^<>≤≥])\s+\((?:\d{1,2}|[IV
 _RELATION = re.compile(r"[=<>≤≥]")
 _ENUMERATED = pattern("pieces: enumerated")
 _AND = pattern("pieces: and")
-_CONJUNCTION = re.compile(r"\s(?:y|e)\s")
+#: The letter y or e, which is the Spanish or Italian word for "and", between what may be two equations.
+_CONJUNCTION = re.compile(r"(?<=[^\s=<>≤≥+\-*/^(,])\s+[ye]\s+(?=[^\s=<>≤≥+\-*/^),])")
 _DECIMAL = re.compile(r"(?<=\d),(?=\d)")
-_WORDS = re.compile(r"[^\W\d_]+(?:['’][^\W\d_]+)*")
+_WORDS = re.compile(r"[^\W\d]+(?:['’][^\W\d]+)*")
 _GROUP = re.compile(r"[(\[]([^()\[\]=<>+*/^\d]+)[)\]]\s*\Z|[(\[]([^()\[\]=<>+*/^\d]+)[)\]](?=\s*[;,\n])")
 _INTRODUCED = pattern("pieces: introduced")
 #: Words after an equation such as `for all t`.
@@ -34,8 +35,6 @@ _CURVES = pattern("pieces: curves")
 _TITLED = re.compile(r"\A\s*[^=<>:+*/^]{1,60}:(?!=)\s*(?=\S)")
 _REMARKED = word_list("pieces: remarked")
 _ABOUT_CONSTANT = pattern("pieces: about a constant")
-#: The letter y or e, which is the Spanish or Italian word for "and", between what may be two equations.
-_BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
 #: A sign of approximate equality for rounded numbers.
 _ROUNDED = re.compile(r"(?:[≈≃≅]|\\(?:approx|simeq|cong)(?![A-Za-z]))(?=.*\d[.,]\d)")
 _CHAINED = re.compile(r"(?<![<>=!])=(?!=)")
@@ -96,7 +95,11 @@ def _joined(script: Script) -> list[Script]:
     for match in re.finditer(r"[\r\n]+", text):
         before, after = text[: match.start()].rstrip(), text[match.end() :].lstrip()
         line = after.splitlines()[0] if after else ""
-        bulleted = after[:1] in ("-", "+", "*", "•") and _RELATION.search(line) and _RELATION.search(_last_line(before))
+        bulleted = (
+            after[:1] in ("-", "+", "*", "•")
+            and _RELATION.search(line)
+            and _RELATION.search(before.splitlines()[-1] if before else "")
+        )
         goes_on = (after[:1] in tuple("+-*/=<>)^") and not bulleted) or before[-1:] in tuple("+-*/=(<>^,")
         if not goes_on or before[-1:] == ",":
             cuts.append(match.span())
@@ -108,10 +111,6 @@ def _joined(script: Script) -> list[Script]:
     if len(joined) > 1 and all(bullet.match(script_line.text) for script_line in joined if script_line.text.strip()):
         joined = [script_line.replaced(bullet, "") for script_line in joined]
     return joined
-
-
-def _last_line(text: str) -> str:
-    return text.splitlines()[-1] if text else ""
 
 
 def _at_signs(text: str) -> Iterator[tuple[int, int]]:
@@ -137,8 +136,8 @@ def _at_words(text: str, names: Names) -> Iterator[tuple[int, int]]:
     for match in _AND.finditer(text):
         yield match.span()
     for match in _CONJUNCTION.finditer(text):
-        word = match[0].strip()
-        if word not in names.coordinates and word not in names.parameters and word != "e":
+        between = all(map(_RELATION.search, (text[: match.start()], text[match.end() :])))
+        if between and match[0].strip() not in {*names.coordinates, *names.parameters, "e"}:
             yield match.span()
 
 
@@ -161,7 +160,7 @@ def _cleaned(script: Script, names: Names) -> Script | None:
     if not text or (_ABOUT_CONSTANT.fullmatch(text) and not _of_coordinates(text, names)) or _is_remark(text, names):
         _check(text, script.columns[0])
         return None
-    if len(_CHAINED.findall(text)) > 1 and _BESIDE.search(text):
+    if len(_CHAINED.findall(text)) > 1 and _CONJUNCTION.search(text):
         raise DoubtError("a letter may be a factor or the word for `and`.", script.columns[0], "write `;`")
     script = script.replaced(_ROUNDED, "=").replaced(_DECIMAL, ".")
     if script.text != text and len(_CHAINED.findall(text)) > 1:

@@ -82,8 +82,8 @@ _UNSURE = pattern("prose: unsure")
 #: Words before a conclusion.
 CONCLUSION = pattern("prose: conclusion")
 #: Replies after a word such as `holonomic:`.
-YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro")
-NO = words("no false not nein falsch nicht non faux falso falsa nao")
+YES = words("yes true ja wahr oui vrai si sim vero verdadero verdadera verdadeiro ✓ ✔ ✅")
+NO = words("no false not nein falsch nicht non faux falso falsa nao ✗ ✘ ❌")
 #: Texts that are no answer.
 NOTHING_SAID = word_list("nothing_said")
 #: Words without meaning for the answer.

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations
 from dofkit.expressions.text.names import in_words
-from dofkit.expressions.tree import Expr, coordinate, parameter
+from dofkit.expressions.tree import PI, Expr, coordinate, nodes, num, parameter
 from dofkit.homework.answers.declared import DeclaredNames, usual_name
 from dofkit.homework.answers.notation import Script
 from dofkit.homework.answers.pieces import Pieces, pieces_of, plainer
@@ -41,7 +41,8 @@ class AnswerReading(NamedTuple):
 
     ``bare``: for each relation whether it has no sign such as `=`; ``undeclared``: names that the answer introduces;
     ``moving``: undeclared names whose derivatives occur; ``derived``: whether arrows lead from each equation to the
-    next; ``places``: the columns of undeclared names; ``rank``: the number of less usual interpretations.
+    next; ``places``: the columns of undeclared names; ``rank``: the number of less usual interpretations; ``rounded``:
+    whether it contains decimals that may be rounded.
     """
 
     relations: tuple[Comparison, ...]
@@ -51,6 +52,7 @@ class AnswerReading(NamedTuple):
     derived: bool = False
     places: Mapping[str, int] = {}
     rank: int = 0
+    rounded: bool = False
 
     @property
     def text(self) -> str:
@@ -155,7 +157,19 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
             pieces.derived,
             extended.places,
             extended.rank,
+            _is_rounded(relations, vocabulary.names),
         )
+
+
+def _is_rounded(relations: Iterable[Comparison], names: Names) -> bool:
+    """Return whether decimals occur that may be rounded: 0.67 and 4.9, not 0.7, nor a declared value."""
+    terms = [n for c in relations for e in (c.left, c.right) for n in nodes(e)]
+    degrees = [num(180) * n.args[1] / PI for n in terms if n.op == "fn" and n.args[0] in ("sin", "cos", "tan")]
+    exact = [e.args[0] for e in names.parameters.values() if e.op == "num"]
+    numbers = [n for e in terms if e.op == "num" and (n := abs(e.args[0])) not in exact]
+    decimals = [n for n in numbers if n.denominator % 5 == 0 and 10**6 % n.denominator == 0]
+    angles = [d.args[0].denominator for d in degrees if d.op == "num"]
+    return any(d > 1 for d in angles) or any(max(n.numerator, n.denominator) > 10 for n in decimals)
 
 
 def _readable(script: Script, vocabulary: AnswerNames) -> bool:

@@ -111,7 +111,9 @@ def _claimed(handed: Handed, source: str) -> Handed:
         return handed
     folder = os.path.isdir(source)
     handed = replace(handed, listed=handed.listed and not folder)
-    within = os.path.relpath(path, clean(source)) if folder else os.path.join(*_last_two(path))
+    within = (
+        os.path.relpath(path, clean(source)) if folder else os.path.join(*os.path.normpath(path).split(os.sep)[-2:])
+    )
     *folders, _ = [part for part in within.split(os.sep) if part not in ("", os.curdir, os.pardir)]
     stem = _stem(path)
     claims = (stem, *reversed(folders)) if folder or stem.lower() in GENERIC else (stem,)
@@ -119,11 +121,6 @@ def _claimed(handed: Handed, source: str) -> Handed:
         return replace(handed, claims=claims)
     naming = claims[1] if stem.lower() in GENERIC and len(claims) > 1 else stem
     return replace(handed, claims=claims, name=own_name(naming))
-
-
-def _last_two(path: str) -> tuple[str, str]:
-    folder, name = os.path.split(path)
-    return os.path.basename(folder), name
 
 
 def _folder(folder: str, columns: Columns, left_out: frozenset[str]) -> Iterator[Handed]:

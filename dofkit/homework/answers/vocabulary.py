@@ -85,7 +85,8 @@ class AnswerNames:
         twin = self._twin(word) or (stem and self._twin(stem))
         if twin and word not in self.meant:
             return replace(self, meant={**self.meant, (word if self._twin(word) else stem): twin})
-        quantity = None if word in self.usual else usual_name(word, self._names_with_accelerations)
+        names = replace(self.names, allow_accelerations=self.accelerations)
+        quantity = None if word in self.usual else usual_name(word, names)
         if quantity is not None:
             return replace(self, usual={**self.usual, word: quantity})
         if len(self.undeclared) == MOST_OWN:
@@ -98,10 +99,6 @@ class AnswerNames:
         if stem and self._may_be_own(stem) and spelled(stem) in _LONG:
             return replace(self, undeclared=(*self.undeclared, stem), moving=self.moving | {stem})
         return replace(self, undeclared=(*self.undeclared, word)) if self._may_be_own(word) else None
-
-    @property
-    def _names_with_accelerations(self) -> Names:
-        return replace(self.names, allow_accelerations=self.accelerations)
 
     def _twin(self, word: str) -> str | None:
         """Return the only declared name that differs in case and `_`, or the only coordinate `word_...`, or None."""

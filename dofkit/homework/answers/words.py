@@ -31,6 +31,7 @@ _COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
 _OR = re.compile(r",?\s+(?:or|oder|ou|oppure)\s+", re.IGNORECASE)
 #: `one of bar and again`, `any one of them`.
 _ANY = pattern("words: any")
+_ONE_OF = pattern("words: one of")
 _EITHER = re.compile(r"\A\s*(?:either|entweder|soit)\s+", re.IGNORECASE)
 _LOWERED = {0x2080 + n: str(n) for n in range(10)}
 _BRACES = re.compile(r"_\{(\w+)\}")
@@ -125,7 +126,7 @@ def alternatives(answer: Given, names: Sequence[str], what: str) -> list[Given]:
 
 
 def names_of(answer: object, names: Sequence[str], what: str) -> list[str]:
-    """Return the known names that an answer lists, without remarks and filling words. Raises TextError."""
+    """Return the known names that an answer lists, without remarks and filling words. Raises TextError, DoubtError."""
     if isinstance(answer, str):
         reason = REASONS.search(answer)
         answer = answer if reason is None else answer[: reason.start()]
@@ -136,6 +137,8 @@ def names_of(answer: object, names: Sequence[str], what: str) -> list[str]:
             denied = (NEGATIONS | DOUBTS) & {plain(w) for w in re.findall(r"[^\W\d_]+", lead[0])}
             answer = answer if denied else " " * lead.end() + answer[lead.end() :]
         answer = _REMARK.sub(lambda m: " " * len(m[0]), answer)
+        if _ONE_OF.search(answer):
+            raise DoubtError("it can be read in more than one way.", 1, None)
     words = split_words(answer)
     table = ChoiceOfNames(names)
     if any(table.meant(word.text) for word in words):

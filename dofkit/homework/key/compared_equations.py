@@ -10,8 +10,7 @@ from functools import cached_property
 
 from dofkit.base.errors import SceneError, TextError
 from dofkit.classification.equivalence import Compared, Sameness, compare
-from dofkit.expressions import tree as ex
-from dofkit.expressions.text import Comparison, parse_relations, to_text
+from dofkit.expressions.text import parse_relations, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.relations import AnswerReading, is_constant_name
 from dofkit.homework.judgement import HALF, NOTHING, JudgedReading, Judgement, needs_review, partly, right, wrong
@@ -35,7 +34,6 @@ _ALLOWS = "Your equation allows {point}, which the constraint forbids."
 _FORBIDS = "Your equation forbids {point}, which the constraint allows."
 _INEQUALITY_ALLOWS = "Your inequality allows {point}, which the constraint forbids."
 _INEQUALITY_FORBIDS = "Your inequality forbids {point}, which the constraint allows."
-_TURNING = frozenset({"sin", "cos", "tan"})
 #: The generated name of the square of a length without a name, in equations of a scene.
 _UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
 
@@ -59,8 +57,6 @@ class EquationComparison:
     def judgement(self, reading: AnswerReading) -> Judgement:
         """Return the judgement of one reading of an answer; with unexplained names it needs a review."""
         verdict = self._compared_reading(reading)
-        if verdict.status == "wrong" and any(map(_is_rounded, reading.relations)):
-            return needs_review(reading.text, "it contains rounded numbers.")
         if verdict.codes == (Sameness.EMPTY.value,) and len(reading.relations) > 1 and not reading.derived:
             return self._contradictory(reading) or verdict
         if reading.derived and verdict.status != "right":
@@ -192,14 +188,6 @@ class EquationComparison:
             return wrong(text, code)
         count = say("It implies {number} of the {all} constraints.", number=sum(met), all=len(self.names))
         return partly(share, text, code).saying(count)
-
-
-def _is_rounded(c: Comparison) -> bool:
-    """Return whether a relation contains decimals, or the sine, cosine or tangent of decimal degrees."""
-    terms = [n for e in (c.left, c.right) for n in ex.nodes(e)]
-    angles = [ex.num(180) * n.args[1] / ex.PI for n in terms if n.op == "fn" and n.args[0] in _TURNING]
-    decimals = [n for n in terms if n.op == "num" and n.args[0].denominator > 10 and 10**6 % n.args[0].denominator == 0]
-    return bool(decimals) or any(d.op == "num" and d.args[0].denominator > 1 for d in angles)
 
 
 def undeclared(name: str) -> Said:

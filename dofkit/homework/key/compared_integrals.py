@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from dofkit.classification.equivalence import Leaves, leaves
 from dofkit.expressions.text import Comparison
-from dofkit.expressions.tree import parameter
+from dofkit.expressions.tree import ONE, parameter
 from dofkit.homework.answers.relations import AnswerReading
 from dofkit.homework.judgement import Judgement, needs_review, right, wrong
 from dofkit.homework.key.compared_equations import ANSWER, lowered
@@ -61,16 +61,18 @@ def _judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
 
 
 def _with_constants(reading: AnswerReading, key: Key) -> Read:
-    """Return the answer with each expression without `=` set equal to a new constant: `x y` is x y = C."""
-    constants = set[str]()
+    """Return the answer, `x y` as x y = C with a new constant; that of both sides of `s + C = R phi + C` is none."""
+    own = {parameter(n) for n in reading.undeclared}
+    constants = own & {s for c in reading.relations for s in (c.left - c.right).symbols}
+    fresh = (parameter(n) for n in _FRESH if key.declared.names.lookup.meaning(n) is None)
     relations = []
     for c, bare in zip(reading.relations, reading.bare, strict=True):
-        if bare and not reading.undeclared:
-            fresh = next(n for n in _FRESH if n not in constants and key.declared.names.lookup.meaning(n) is None)
-            constants.add(fresh)
-            c = Comparison(c.left, "=", parameter(fresh), c.column)
+        c = c.substituted(dict.fromkeys(own - constants, ONE))
+        if bare and not own:
+            c = Comparison(c.left, "=", next(fresh), c.column)
+            constants.add(c.right)
         relations.append(c)
-    return reading._replace(relations=tuple(relations)).read(frozenset(constants) | frozenset(reading.undeclared))
+    return reading._replace(relations=tuple(relations)).read(frozenset(str(s.args[1]) for s in constants))
 
 
 def _leaves(key: Key, read: Read, name: str) -> Leaves:

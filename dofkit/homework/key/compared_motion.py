@@ -154,14 +154,9 @@ class AnsweredMotion:
         n = len(self.columns)
         rank = max(t.rank if all(sound) else t.sound_rank(sound, n) for t in findings)
         still = [not any(v for t in findings for v in t.rows[i][:n]) for i in range(len(rows))]
-        verdicts = [_verdict(s, z) for s, z in zip(sound, still, strict=True)]
+        moves = [MotionSameness.TRIVIAL if z else MotionSameness.FOLLOWS for z in still]
+        verdicts = [m if s else MotionSameness.NOT for s, m in zip(sound, moves, strict=True)]
         return Followed(verdicts, rank, any(sound) and all(t.contradictory(n) for t in findings))
-
-
-def _verdict(sound: bool, still: bool) -> MotionSameness:
-    if not sound:
-        return MotionSameness.NOT
-    return MotionSameness.TRIVIAL if still else MotionSameness.FOLLOWS
 
 
 class PointFindings(NamedTuple):

@@ -31,6 +31,7 @@ def counterexample(
     The text is empty if none is found. ``scene``: the other constraints, which the state satisfies too. Parameters are
     whole numbers.
     """
+    named = frozenset[Expr]().union(*(in_velocities(e)[0].symbols for e in (*satisfied, *violated, *positive)))
     free = [name for name, value in scene.parameters.items() if value in ("real", "positive", "nonzero")]
     numbers = {name: n for n, name in enumerate(free, 2)}
     table = {ex.parameter(name): ex.num(n) for name, n in numbers.items()}
@@ -43,7 +44,6 @@ def counterexample(
     symbols = frozenset[Expr]().union(*(e.symbols for e in (*zero, *violated, *sides)))
     if any(s.args[0] not in _SHOWN for s in symbols) or any("call" in e.functions for e in (*zero, *violated, *sides)):
         return ""
-    named = frozenset[Expr]().union(*(e.symbols for e in (*zero[: len(satisfied)], *violated, *sides[: len(positive)])))
     ring = Ring([*zero, *violated, *sides], frozenset())
     nodes, failing, inside = ([ring.node(e) for e in part] for part in (zero, violated, sides))
     unknowns = sorted((s for s in symbols if s is not ex.TIME), key=repr)
@@ -58,10 +58,9 @@ def counterexample(
             continue
         differs = not failing or any(not at[n].contains(0) for n in failing)
         if differs and all(at[n] > 0 for n in inside):
-            values_of_names = {to_text(s): float(state.point.symbols[s]) for s in sorted(symbols & named, key=repr)}
-            return ", ".join(
-                [*(f"{n} = {v:.3g}" for n, v in values_of_names.items()), *(f"{n} = {v}" for n, v in numbers.items())]
-            )
+            shown = {to_text(s): float(state.point.symbols[s]) for s in sorted(symbols & named, key=repr)}
+            shown |= {name: n for name, n in numbers.items() if ex.parameter(name) in named}
+            return ", ".join(f"{name} = {value:.3g}" for name, value in shown.items())
     return ""
 
 

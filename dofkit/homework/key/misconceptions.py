@@ -50,10 +50,6 @@ def _squares_may_be_summed(f: SceneCounts) -> bool:
     return not f.links and f.naive > f.dof and not f.integrable and not f.nonholonomic
 
 
-def _may_conserve(f: SceneCounts) -> bool:
-    return f.dof > 1 and bool(f.energies or f.forces or not f.entries)
-
-
 #: All errors; if several give the same number, the first is the most likely.
 ERRORS: tuple[Misconception, ...] = (
     _naive("ALL_LINKS", lambda f: f.links > f.n - f.dof and f.naive < f.dof),
@@ -81,7 +77,12 @@ ERRORS: tuple[Misconception, ...] = (
     _less("BAR_TWO", lambda f: f.links),
     _less("BAR_POINT", lambda f: (f.d - 1) * f.links),
     Misconception("MOTION", lambda f: 1, lambda f: f.dof == f.n > 1 and not f.entries),
-    Misconception("CONSERVATION", lambda f: f.dof - 1, _may_conserve, alone=True),
+    Misconception(
+        "CONSERVATION",
+        lambda f: f.dof - 1,
+        lambda f: f.dof > 1 and (f.energies or f.forces or not f.entries),
+        alone=True,
+    ),
     _less("PARAM_COUNT", lambda f: f.on_curves, alone=True),
     _naive("ALL_COUNTED", lambda f: f.naive < f.dof, alone=True),
     _more("FIXED_FORGOT", lambda f: f.fixed, alone=True),

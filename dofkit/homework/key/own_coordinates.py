@@ -89,8 +89,9 @@ def _equations(key: Key, name: str) -> list[str]:
     e = parse_expression(key.also[name], key.declared.names)
     if e.op == "fn" and e.args[0] == "atan2":
         a, b = (to_text(part) for part in e.args[1:])
-        for radius in key.declared.constants:
-            if key.scene.parameters.get(radius) == "positive" and implied(key, f"({a})^2 + ({b})^2 = {radius}^2"):
+        for radius, value in key.declared.names.parameters.items():
+            positive = value.args[0] > 0 if value.op == "num" else key.scene.parameters.get(radius) == "positive"
+            if positive and implied(key, f"({a})^2 + ({b})^2 = {radius}^2"):
                 return [f"{a} = {radius}*sin({name})", f"{b} = {radius}*cos({name})"]
     return [f"{name} = {to_text(e)}"]
 

@@ -68,7 +68,7 @@ def motion_readings(answer: Given, names: DeclaredNames, value: bool) -> list[Re
         if sum(side.bare) != 1:
             raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
     sides = with_explained_names([s._replace(undeclared=tuple(_strange(s, value))) for s in sides], names) and sides
-    return [Reading(side, _shown_reading(side, value), side.rank, not _strange(side, value)) for side in sides]
+    return [Reading(s, _shown_reading(s, value), s.rank, not _strange(s, value), s.rounded) for s in sides]
 
 
 def _strange(reading: AnswerReading, value: bool) -> list[str]:
@@ -129,7 +129,11 @@ def posed_motion(reading: AnswerReading, key: Key, value: bool) -> PosedMotion:
 def _defining_constants(reading: AnswerReading, key: Key) -> AnswerReading:
     """Return a reading without undeclared constants that it defines, as in `omega^2 = g/l`."""
     still = [n for n in reading.undeclared if n not in reading.moving]
-    whole = len(reading.relations) > 1 and not any(map(_of_constants, reading.relations, reading.bare))
+    alone = [
+        b and all(s.args[0] == "parameter" for s in c.left.symbols)
+        for c, b in zip(reading.relations, reading.bare, strict=True)
+    ]
+    whole = len(reading.relations) > 1 and not any(alone)
     kept = with_constants(reading.relations, still, key.scene) if whole else list(reading.relations)
     if len(kept) == len(reading.relations):
         return reading
@@ -140,11 +144,6 @@ def _defining_constants(reading: AnswerReading, key: Key) -> AnswerReading:
         bare=tuple(bare + [False] * (len(kept) - len(bare))),
         undeclared=tuple(n for n in reading.undeclared if n in named),
     )
-
-
-def _of_constants(c: Comparison, bare: bool) -> bool:
-    """Return whether a relation is a bare value of constants alone, which defines no name."""
-    return bare and all(s.args[0] == "parameter" for s in c.left.symbols)
 
 
 def _named_value(reading: AnswerReading) -> AnswerReading:

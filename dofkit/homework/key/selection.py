@@ -12,6 +12,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ZERO
+from dofkit.homework.key.counterexamples import counterexample
 from dofkit.methods.classify import classify
 from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.report import Report
@@ -84,20 +85,21 @@ def is_redundant_set(scene: Scene, names: Sequence[str], report: Report) -> bool
     """Return whether the motions are the same without the constraints of these names, or None if undecided.
 
     They follow from the others; or, near a reference or generic pose, all constraints are geometric, and the degrees of
-    freedom are the same without these.
+    freedom are the same without these. An inequality is needed if a state violates it that the others allow.
     """
     system = lower(scene)
     reduced, setting = prepared(system)
     dropped = [r for r in reduced if r.constraint.name in set(names)]
     kept = [n for r in reduced if r not in dropped for n in r.normals]
-    if any(r.inequalities for r in dropped):
-        return False
+    entries = zip(scene.constraints, report.constraints, strict=True)
+    without = _with(scene, [c.model_copy(update={"name": e.name}) for c, e in entries if e.name not in names])
+    inequalities = [i.expr for r in dropped for i in r.inequalities]
+    if inequalities:
+        return False if any(counterexample(without, (), (), [-e]) for e in inequalities) else None
     implied = all_of(follows(n, kept, setting) for r in dropped for n in r.normals)
     if implied:
         return True
-    entries = zip(scene.constraints, report.constraints, strict=True)
-    remaining = [c.model_copy(update={"name": e.name}) for c, e in entries if e.name not in names]
-    fewer = classify(_with(scene, remaining))
+    fewer = classify(without)
     freedom = [(r.dof, r.velocity_dof) for r in (report, fewer)]
     if any(None in pair for pair in freedom):
         return None

@@ -37,7 +37,7 @@ class EquationQuestion(QuestionBase):
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         readings = with_explained_names(readings_of(answer, AnswerNames(names.with_also, accelerations=True)), names)
-        return [Reading(r.with_own(names.also), r.text, r.rank, not r.undeclared) for r in readings]
+        return [Reading(r.with_own(names.also), r.text, r.rank, not r.undeclared, r.rounded) for r in readings]
 
     def solution(self, key: Key) -> Sentence:
         return say("A correct answer is {text}.", text=equations_of(key, self.constraint))
@@ -64,7 +64,7 @@ class IntegralQuestion(QuestionBase):
         if is_none(answer, _says_relation):
             return [Reading(None, "none")]
         readings = readings_of(answer, AnswerNames(names.names, signs_apart=True), _undifferentiated)
-        return [Reading(r, r.text, r.rank, all(map(is_constant_name, r.undeclared))) for r in readings]
+        return [Reading(r, r.text, r.rank, all(map(is_constant_name, r.undeclared)), r.rounded) for r in readings]
 
     def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]

@@ -9,6 +9,8 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from dofkit.base.errors import DofkitError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.declared import DeclaredNames
@@ -93,7 +95,7 @@ class Lagrangian(_Value):
 
 
 class _OfCoordinate(_Value):
-    """Momenta and forces; an answer that is right only before the elimination of coordinates needs a review."""
+    """Momenta and forces; an answer that may be right in other coordinates or conventions needs a review."""
 
     #: The code of a wrong answer.
     code: ClassVar[str]
@@ -103,6 +105,10 @@ class _OfCoordinate(_Value):
         """Return the right expressions (in the remaining coordinates or None, before elimination)."""
         raise NotImplementedError
 
+    def _others(self, motion: RightMotion) -> list[Expr]:
+        """Return what may be right in other conventions: the expression before elimination."""
+        return [self._right(motion)[1]] if motion.motions else []
+
     def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
         reduced, unreduced = self._right(motion)
         wanted = unreduced if reduced is None else reduced
@@ -111,9 +117,8 @@ class _OfCoordinate(_Value):
             return right(text)
         if same is None:
             return needs_review(text, "it could not be decided whether this is equal to the correct expression.")
-        if motion.motions and reduced is not None and motion.zero(expression - unreduced) is not False:
-            why = "it may be written in the original coordinates, before the constraints are substituted."
-            return needs_review(text, why)
+        if reduced is None or any(motion.zero(expression - other) is not False for other in self._others(motion)):
+            return needs_review(text, "it may be right for other generalized coordinates, or in another convention.")
         if motion.zero(expression + wanted):
             return wrong(text, "SIGN")
         return wrong(text, self.code)
@@ -141,6 +146,12 @@ class GeneralizedForce(_OfCoordinate):
 
     def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
         return motion.forces.get(self.coordinate), motion.unreduced[self.coordinate][1]
+
+    def _others(self, motion: RightMotion) -> list[Expr]:
+        """Return also the forces without the derivative of T, and of L, by the coordinate."""
+        energies = ((motion.total + motion.lagrangian) * ex.HALF, motion.lagrangian)
+        forces = [motion.forces[self.coordinate] - diff(e, ex.coordinate(self.coordinate)) for e in energies]
+        return super()._others(motion) + [force for force in forces if not force.is_zero]
 
 
 class MotionQuestion(_MotionQuestion):
@@ -180,14 +191,11 @@ class MotionQuestion(_MotionQuestion):
         place = motion.names.index(self.coordinate or "")
         if not any(is_zero(row[place], motion.positive) is False for row in rows):
             return wrong(text, Found.TRIVIAL.value)
-        if len(rows) == 1 and len(motion.names) > 1 and self._of_another(rows[0], answered, motion, place):
-            return wrong(text, "OTHER_COORDINATE")
+        if len(rows) == 1 and len(motion.names) > 1:
+            proportional = [_proportional(rows[0][:-1], other[:-1], motion.positive) for other in answered.right]
+            if not proportional[place] and any(proportional):
+                return wrong(text, "OTHER_COORDINATE")
         return right(text)
-
-    def _of_another(self, row: Sequence[Expr], answered: AnsweredMotion, motion: RightMotion, place: int) -> bool:
-        """Return whether a row is a multiple of another coordinate's equation, and not of the one at ``place``."""
-        proportional = [_proportional(row[:-1], other[:-1], motion.positive) for other in answered.right]
-        return not proportional[place] and any(proportional)
 
     def _solution(self, motion: RightMotion) -> Sentence:
         of_coordinates = motion.equations
