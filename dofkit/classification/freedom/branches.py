@@ -158,8 +158,8 @@ def solve(reduced: Sequence[Reduced], setting: Setting, answered: AnsweredBlocks
         anywhere = replace(setting, reference=None)
         best, chosen = _through_reference(reduced, anywhere, AnsweredBlocks(anywhere))
     best.answers = _about_component(_with_reference_checked(best, setting), best.blocks, chosen)
-    others = [r for r in reduced if not r.constraint.winds]
-    if best.consistent is False and len(others) < len(reduced) and solve(others, setting).consistent is not False:
+    others = [r for r in reduced if not r.constraint.winds] if best.consistent is False else reduced
+    if len(others) < len(reduced) and solve(others, setting).consistent is not False:
         best.answers = [Answer(None, verdict="undecided", reasons=[WINDS]) for _ in best.answers]
     return best
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cache
 from itertools import combinations, pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -13,8 +14,9 @@ from dofkit.exact.matrices.sparse import along, less
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.real_values import Requirement
-from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
-from dofkit.expressions.vectors import Vec, difference, square, square_between
+from dofkit.expressions.renaming import renamed, shape_of
+from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, coordinate, fn, mul, parameter, power, sqrt
+from dofkit.expressions.vectors import Vec, difference, minus, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase
 from dofkit.scene.fields import Value, as_written
 from dofkit.scene.frames import Placed, between
@@ -93,11 +95,25 @@ def distance(world: World, first: Placed, second: Placed, length: Expr | None) -
             )
     else:
         squared = world.fresh("L")
+        names = [str(s.args[1]) for s in (*first.over, *second.over, squared) if s.op == "sym"]
+        if first.frame is None and second.frame is None and len({*names}) == 2 * world.dimension + 1:
+            link, own_names = _link_of_particles(world.dimension)
+            return renamed(link, dict(zip(own_names, names, strict=True)))
     world.apart(first, second, squared)
     if known_square is not None and first.frame is not None and first.frame == second.frame:
         return difference(known_square, squared)
     arm, under = between(first, second)
     return difference(square(arm), squared if under is ONE else mul(squared, power(under, TWO)))
+
+
+@cache
+def _link_of_particles(dimension: int) -> tuple[Expr, list[str]]:
+    """Return |A - B|^2 - L for two particles, and its names; copies in other names take over its shape."""
+    ends = [[f"{end}{k}" for k in range(dimension)] for end in "AB"]
+    first, second = (tuple(map(coordinate, names)) for names in ends)
+    link = difference(square(minus(second, first)), parameter("_L"))
+    shape_of(link)
+    return link, [*ends[0], *ends[1], "_L"]
 
 
 def _check_length(world: World, length: Expr, reference_length: Expr | None, before: str, after: str) -> None:
