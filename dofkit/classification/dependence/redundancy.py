@@ -309,13 +309,13 @@ def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
 
 def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:
     """Return whether each equation has one row and removes one freedom, so that none is implied by the others."""
-    rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
-    single = rows == {i: reduced[i].equations for i in numbers}
+    rows = sorted([r.constraint for block, _ in blocks for r in block.rows])
+    single = rows == [i for i in numbers for _ in range(reduced[i].equations)]
     plain = all(a.velocity_dof is not None and not (a.hidden or a.degenerate) for _, a in blocks)
     return (
         single
         and plain
-        and sum(rows.values()) == sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
+        and len(rows) == sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
     )
 
 

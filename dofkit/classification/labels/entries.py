@@ -77,8 +77,9 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
     if any(isinstance(p, Pfaffian) for p in pieces):
         places: dict[str, int] = {}
         for p in pieces:
-            shape, moving = piece_shape(p), coordinates_of(p) - setting.tilts
-            names = [places.setdefault(n, len(places)) if n in moving else n for n in shape.names]
+            shape = piece_shape(p)
+            kept = setting.tilts
+            names = [n if n[0] == "_" or n in kept else places.setdefault(n, len(places)) for n in shape.names]
             shapes.append((shape.key, *names))
     answers = [t.answer for t in rows]
     return (
@@ -115,13 +116,13 @@ def _dependences(
     seen = {i for result in dependent for i in result.seen}
     claims: dict[int, list[Claim]] = {}
     for result in dependent:
-        for i in {*result.independent, *result.undecided, *result.redundant}:
+        for i in () if result.claim == IDENTITY else {*result.independent, *result.undecided, *result.redundant}:
             claims.setdefault(i, []).append(result.claim)
+    unknown = None if outcome.consistent is False else 0
     for i, rows in enumerate(labelled):
-        number = independent[i] if i in counted else None if rows or outcome.consistent is False else 0
+        number = independent[i] if i in counted else None if rows else unknown
         circuit = [names[j] for j in circuits[i]] if i in circuits else None
-        others = [c for c in claims.get(i, ()) if c != IDENTITY]
-        claim = together(*others) if others else IDENTITY
+        claim = together(*claims[i]) if i in claims else IDENTITY
         sentence = undecided.get(i, "")
         yield EntryDependence(number, circuit, i in redundant, sentence, implied.get(i), i in seen, claim)
 
