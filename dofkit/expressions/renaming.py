@@ -125,12 +125,11 @@ class Renaming:
 
     def __init__(self, names: Mapping[str, str]) -> None:
         self.names = names
-        self._renamed: dict[int, Expr] = {}
-        self._kept: list[Expr] = []
+        self._renamed: dict[Expr, Expr] = {}
 
     def of(self, e: Expr) -> Expr:
         """Return ``e`` in the new names, with its shape and functions if those of ``e`` are known."""
-        earlier = self._renamed.get(id(e))
+        earlier = self._renamed.get(e)
         if earlier is not None:
             return earlier
         op, args = e.op, e.args
@@ -153,8 +152,7 @@ class Renaming:
                 skeleton, names, kept, occurring = e.shape
                 names = tuple([self.names.get(n, n) for n in names])
                 renamed_expression.shape = ExpressionShape(skeleton, names, kept, occurring)
-        self._renamed[id(e)] = renamed_expression
-        self._kept.append(e)
+        self._renamed[e] = renamed_expression
         return renamed_expression
 
 

@@ -185,8 +185,7 @@ class IntegralSearch:
             self._attempts += 1
             if self._attempts > 4 * MAX_PRODUCTS:
                 return None
-            point = self._point(3 * self._attempts)
-            sample = None if point is None else _sample_of(self.forms, point, point)
+            sample = self._sample(3 * self._attempts)
             if sample is not None and not sample.basis:
                 return None
             if sample is not None and (not self.points or sample.point.p == self.points[0].point.p):
@@ -197,8 +196,7 @@ class IntegralSearch:
         """Return whether X f = 0 for all X in D at `CHECKS` new points, modulo other primes."""
         checked = 0
         for k in range(6 * CHECKS):
-            point = self._point(7000 + k)
-            sample = None if point is None else _sample_of(self.forms, point, point)
+            sample = self._sample(7000 + k)
             if sample is None:
                 continue
             if any(v != 0 for v in pairing(self._gradient(f, sample), sample.basis)):
@@ -213,8 +211,9 @@ class IntegralSearch:
         g = gradient(self.ring, values(self.ring, sample.point), sample.point, [(node, unit)])
         return [g.get(c, unit * 0) for c in self.forms.chart.columns]
 
-    def _point(self, seed: int) -> FieldPoint | None:
-        return pose_point(self.forms.chart, {}, seed) if self.solver is None else self.solver.draw(seed)
+    def _sample(self, seed: int) -> FormSample | None:
+        point = pose_point(self.forms.chart, {}, seed) if self.solver is None else self.solver.draw(seed)
+        return None if point is None else _sample_of(self.forms, point, point)
 
     def _combination(self, monomials: Sequence[Monomial], weights: Sequence[Residue], p: int) -> Expr | None:
         """Return the combination with rational coefficients equal to the weights modulo p; None if one is too large."""

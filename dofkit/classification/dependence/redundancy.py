@@ -312,11 +312,7 @@ def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: 
     rows = sorted([r.constraint for block, _ in blocks for r in block.rows])
     single = rows == [i for i in numbers for _ in range(reduced[i].equations)]
     plain = all(a.velocity_dof is not None and not (a.hidden or a.degenerate) for _, a in blocks)
-    return (
-        single
-        and plain
-        and len(rows) == sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
-    )
+    return single and plain and len(rows) == sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
 
 
 def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:

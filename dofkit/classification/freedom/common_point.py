@@ -192,9 +192,7 @@ def at_one_point(
     kept, result = list(blocks), simultaneous(written, answers)
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, [restricted_to_domain(b, a, setting) for b, a in zip(written, result, strict=True)])
-    if not domain:
-        return CommonPoint(kept, result)
-    point = _point(blocks, result, setting)
+    point = _point(blocks, result, setting) if domain else {}
     outside = {c for _, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})}
     if not outside:
         return CommonPoint(kept, result)
@@ -299,8 +297,7 @@ def _shared_symbols(block: Block) -> frozenset[Expr]:
     """Return the time, the named parameters and, as symbols, the names of the unknown functions of a block."""
     pieces = (row.piece for row in block.rows if not isinstance(row.piece, JointEquation))
     written = [*(e for piece in pieces for e in expressions_of(piece)), *(c.expr for c in block.conditions)]
-    symbols = {s for e in written for s in shape_of(e).skeleton.symbols if s.args[0] == "parameter"}
-    named = {s for s in symbols if not is_name(s)}
+    named = {s for e in written for s in shape_of(e).skeleton.symbols if s.args[0] == "parameter" and not is_name(s)}
     calls = {n for e in written if "call" in e.functions for n in ex.nodes(e) if n.op == "call"}
     functions = {ex.parameter(f"{n.args[0]}(...)") for n in calls}
     timed = any(map(depends_on_time, (*(row.piece for row in block.rows), *block.conditions)))

@@ -47,9 +47,9 @@ def entries_of(
             check()
             likeness = None if dependence.has_dependence else _likeness(r, labelled[i], setting)
             kind = None if likeness is None else (likeness, dependence)
-            if kind in by_kind:
-                named = {"name": r.constraint.name, "text": r.constraint.text}
-                entries.append(by_kind[kind].model_copy(update=named))
+            like = by_kind.get(kind)
+            if like is not None:
+                entries.append(like.model_copy(update={"name": r.constraint.name, "text": r.constraint.text}))
                 continue
             companions_of = partial(_with_others, i, labelled[i], company)
             alone = by_itself(r, labelled[i], company.answered)
@@ -78,8 +78,7 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
         places: dict[str, int] = {}
         for p in pieces:
             shape = piece_shape(p)
-            kept = setting.tilts
-            names = [n if n[0] == "_" or n in kept else places.setdefault(n, len(places)) for n in shape.names]
+            names = [n if n[0] == "_" or n in setting.tilts else places.setdefault(n, len(places)) for n in shape.names]
             shapes.append((shape.key, *names))
     answers = [t.answer for t in rows]
     return (

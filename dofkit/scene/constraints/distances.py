@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cache
-from itertools import combinations, pairwise
+from itertools import chain, combinations, pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
@@ -95,10 +95,11 @@ def distance(world: World, first: Placed, second: Placed, length: Expr | None) -
             )
     else:
         squared = world.fresh("L")
-        names = [str(s.args[1]) for s in (*first.over, *second.over, squared) if s.op == "sym"]
-        if first.frame is None and second.frame is None and len({*names}) == 2 * world.dimension + 1:
-            link, own_names = _link_of_particles(world.dimension)
-            return renamed(link, dict(zip(own_names, names, strict=True)))
+        symbols = (*chain.from_iterable(zip(second.over, first.over, strict=True)), squared)
+        names = [str(s.args[1]) for s in symbols if s.op == "sym"]
+        if first.frame is None and second.frame is None and len({*names}) == len(symbols):
+            link = _link_of_particles(world.dimension)
+            return renamed(link, dict(zip(shape_of(link).names, names, strict=True)))
     world.apart(first, second, squared)
     if known_square is not None and first.frame is not None and first.frame == second.frame:
         return difference(known_square, squared)
@@ -107,13 +108,10 @@ def distance(world: World, first: Placed, second: Placed, length: Expr | None) -
 
 
 @cache
-def _link_of_particles(dimension: int) -> tuple[Expr, list[str]]:
-    """Return |A - B|^2 - L for two particles, and its names; copies in other names take over its shape."""
-    ends = [[f"{end}{k}" for k in range(dimension)] for end in "AB"]
-    first, second = (tuple(map(coordinate, names)) for names in ends)
-    link = difference(square(minus(second, first)), parameter("_L"))
-    shape_of(link)
-    return link, [*ends[0], *ends[1], "_L"]
+def _link_of_particles(dimension: int) -> Expr:
+    """Return |A - B|^2 - L for two particles; its copies in other names have its shape, which is computed once."""
+    first, second = (tuple([coordinate(f"{end}{k}") for k in range(dimension)]) for end in "AB")
+    return difference(square(minus(second, first)), parameter("_L"))
 
 
 def _check_length(world: World, length: Expr, reference_length: Expr | None, before: str, after: str) -> None:
