@@ -22,7 +22,7 @@ GRACE_SECONDS, GRACE_PART = 1.0, 0.25
 #: The largest work rows * columns * min(rows, columns) of a dense elimination, and the work done in a second.
 MAX_WORK, WORK_A_SECOND = 30_000_000_000, 3e9
 #: Python's thresholds for garbage collection: new objects, and collections until older objects are searched too.
-GC_THRESHOLD = (200_000, 20, 20)
+GC_THRESHOLD = (1_000_000, 20, 20)
 #: `checked_calls` reads the clock once in this many calls and returns, so that reading takes little time.
 CALLS = 64
 OUT_OF_TIME = "the time allowed for the scene was used up"

@@ -85,7 +85,7 @@ def plain(text: str) -> Scalar:
 
 def _whole_characters(text: str) -> str | None:
     """Return a text with surrogate pairs (JSON's escapes) joined to characters; None for a lone surrogate."""
-    if not any("\ud800" <= char <= "\udfff" for char in text):
+    if text.isascii() or not any("\ud800" <= char <= "\udfff" for char in text):
         return text
     try:
         return text.encode("utf-16", "surrogatepass").decode("utf-16")

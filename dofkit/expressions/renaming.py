@@ -125,40 +125,35 @@ class Renaming:
 
     def __init__(self, names: Mapping[str, str]) -> None:
         self.names = names
-        self._symbols: dict[Expr, Expr] = {}
-        self._renamed: dict[int, tuple[Expr, Expr]] = {}
+        self._renamed: dict[Expr, Expr] = {}
 
     def of(self, e: Expr) -> Expr:
         """Return ``e`` in the new names, with its shape and functions if those of ``e`` are known."""
+        earlier = self._renamed.get(e)
+        if earlier is not None:
+            return earlier
         op, args = e.op, e.args
-        if op == "sym":
-            return self._symbol(e)
         if op == "num" or op == "const":
             return e
-        earlier = self._renamed.get(id(e))
-        if earlier is not None:
-            return earlier[1]
-        renamed: tuple[Any, ...]
-        if op == "fn":
-            renamed = (args[0], *map(self.of, args[1:]))
-        elif op == "call":
-            renamed = (args[0], args[1], tuple(map(self.of, args[2])))
+        if op == "sym":
+            other = self.names.get(args[1])
+            renamed_expression = e if other is None else sym(args[0], other)
         else:
-            renamed = tuple(map(self.of, args))
-        renamed_expression = Expr(op, renamed)
-        renamed_expression._functions = e._functions
-        if e.shape is not None:
-            renamed_expression.shape = e.shape._replace(names=tuple(self.names.get(n, n) for n in e.shape.names))
-        self._renamed[id(e)] = e, renamed_expression
+            renamed: tuple[Any, ...]
+            if op == "fn":
+                renamed = (args[0], *map(self.of, args[1:]))
+            elif op == "call":
+                renamed = (args[0], args[1], tuple(map(self.of, args[2])))
+            else:
+                renamed = tuple(map(self.of, args))
+            renamed_expression = Expr(op, renamed)
+            renamed_expression._functions = e._functions
+            if e.shape is not None:
+                skeleton, names, kept, occurring = e.shape
+                names = tuple([self.names.get(n, n) for n in names])
+                renamed_expression.shape = ExpressionShape(skeleton, names, kept, occurring)
+        self._renamed[e] = renamed_expression
         return renamed_expression
-
-    def _symbol(self, symbol: Expr) -> Expr:
-        renamed_symbol = self._symbols.get(symbol)
-        if renamed_symbol is None:
-            kind, name = symbol.args
-            other = self.names.get(name)
-            renamed_symbol = self._symbols[symbol] = symbol if other is None else sym(kind, other)
-        return renamed_symbol
 
 
 T = TypeVar("T")

@@ -86,12 +86,12 @@ class FormSample:
         """Return (value of a product of functions, its derivatives along the vectors of the basis)."""
         value_and_rates = self._products.get(m)
         if value_and_rates is None:
-            last = self.at[m[-1]]
-            rates = [sum((a * v[c] for c, a in self.gradients[m[-1]].items()), last * 0) for v in self.basis]
-            value_and_rates = last, rates
-            if m[:-1]:
-                before, slopes = self.product(m[:-1])
+            if len(m) > 1:
+                (before, slopes), (last, rates) = self.product(m[:-1]), self.product(m[-1:])
                 value_and_rates = before * last, [a * last + before * b for a, b in zip(slopes, rates, strict=True)]
+            else:
+                last, slope = self.at[m[0]], self.gradients[m[0]].items()
+                value_and_rates = last, [sum((a * v[c] for c, a in slope), last * 0) for v in self.basis]
             self._products[m] = value_and_rates
         return value_and_rates
 
@@ -161,11 +161,11 @@ class IntegralSearch:
         for i in (v.index for v in self.ring.vars if v.kind == "symbol"):  # parameters vary too, as from point to point
             others = [base.rng.randrange(p) for _ in range(1, order)]
             path[i] = Series(residue_polynomial([int(sample.at[i]), *others], p), order)
-        curve = _sample_of(self.forms, base, sample.frame, SeriesPoint(base, path, order, residue_polynomial([0], p)))
+        curve = _sample_of(self.forms, base, SeriesPoint(base, path, order, residue_polynomial([0], p)), sample.frame)
         if curve is None:
             return []
-        rates = [curve.product(m)[1] for m in monomials]
-        return [[along[i].coefficient(k) for along in rates] for i in range(len(curve.basis)) for k in range(order)]
+        rates = [[rate.poly for rate in curve.product(m)[1]] for m in monomials]
+        return [[along[i][k] for along in rates] for i in range(len(curve.basis)) for k in range(order)]
 
     def slope(self, f: Expr, sample: FormSample, v: Sequence[Residue]) -> Scalar:
         """Return df(v) for a vector v at a point."""
@@ -185,7 +185,7 @@ class IntegralSearch:
             self._attempts += 1
             if self._attempts > 4 * MAX_PRODUCTS:
                 return None
-            sample = _sample_at(self.forms, self._point(3 * self._attempts))
+            sample = self._sample(3 * self._attempts)
             if sample is not None and not sample.basis:
                 return None
             if sample is not None and (not self.points or sample.point.p == self.points[0].point.p):
@@ -196,7 +196,7 @@ class IntegralSearch:
         """Return whether X f = 0 for all X in D at `CHECKS` new points, modulo other primes."""
         checked = 0
         for k in range(6 * CHECKS):
-            sample = _sample_at(self.forms, self._point(7000 + k))
+            sample = self._sample(7000 + k)
             if sample is None:
                 continue
             if any(v != 0 for v in pairing(self._gradient(f, sample), sample.basis)):
@@ -211,8 +211,9 @@ class IntegralSearch:
         g = gradient(self.ring, values(self.ring, sample.point), sample.point, [(node, unit)])
         return [g.get(c, unit * 0) for c in self.forms.chart.columns]
 
-    def _point(self, seed: int) -> FieldPoint | None:
-        return pose_point(self.forms.chart, {}, seed) if self.solver is None else self.solver.draw(seed)
+    def _sample(self, seed: int) -> FormSample | None:
+        point = pose_point(self.forms.chart, {}, seed) if self.solver is None else self.solver.draw(seed)
+        return None if point is None else _sample_of(self.forms, point, point)
 
     def _combination(self, monomials: Sequence[Monomial], weights: Sequence[Residue], p: int) -> Expr | None:
         """Return the combination with rational coefficients equal to the weights modulo p; None if one is too large."""
@@ -241,26 +242,18 @@ def _depends_on_motion(e: Expr) -> bool:
 
 
 @none_without_value
-def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | None:
-    """Return the sample at a point; None if there is no point, or a function has no value there."""
-    if point is None:
-        return None
-    matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(Fraction(0)))
-    return _sample_of(forms, point, field_frame(matrix, len(forms.chart.columns), point.p), point)
-
-
-@none_without_value
 def _sample_of(
-    forms: Codistribution, base: FieldPoint, frame: Pivots, point: FieldPoint | SeriesPoint
+    forms: Codistribution, base: FieldPoint, point: FieldPoint | SeriesPoint, frame: Pivots | None = None
 ) -> FormSample | None:
     """Return the sample at ``point``: ``base``, or a curve through it; None if a function has no value or series.
 
-    ``frame``: the pivots of the rows at ``base``, which give a basis of D along the curve too.
+    ``frame``: the pivots of the rows at ``base``, by default of those at ``point``; they give a basis of D.
     """
     ring, columns = forms.chart.ring, forms.chart.columns
     unit = point.number(Fraction(1))
     at = values(ring, point)
     matrix = forms.rows.matrix(at, unit * 0)
+    frame = frame or field_frame(matrix, len(columns), base.p)
     basis = kernel(matrix, frame, unit * 0) if frame.free else []
     gradients = []
     for v, node in zip(ring.vars, ring.var_node, strict=True):

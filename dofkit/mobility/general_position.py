@@ -25,7 +25,7 @@ from dofkit.exact.points.field import FieldPoint, field_point, prime_for
 from dofkit.exact.ring.program import gradient, none_without_value, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.expressions.renaming import coordinates_in
+from dofkit.expressions.renaming import coordinates_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.graph.linkage import linkage
 from dofkit.mobility.placement import Placement, general_placement, rows_of
@@ -222,10 +222,12 @@ def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
 
 def _only(e: Expr, ends: set[str]) -> Expr | None:
     """Return the one symbol of ``e`` that is not a coordinate, if its coordinates are just ``ends``; else None."""
-    if len(e.symbols) != len(ends) + 1 or coordinates_in(e) != ends:
+    shape = shape_of(e)
+    others = [s.args[0] for s in shape.skeleton.symbols if s.args[0] != "coordinate"]
+    if len(others) != 1 or coordinates_in(e) != ends:
         return None
-    others = [s for s in e.symbols if s.args[0] != "coordinate"]
-    return others[0] if len(others) == 1 else None
+    (name,) = {*shape.names, *shape.kept} - ends
+    return ex.sym(others[0], name)
 
 
 def _is_length(symbol: Expr, row: Row, setting: Setting) -> bool:

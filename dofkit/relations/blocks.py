@@ -10,7 +10,7 @@ from dofkit.base.deadline import check
 from dofkit.exact.matrices.sparse import components
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.expressions.renaming import coordinates_in
+from dofkit.expressions.renaming import coordinates_in, kinds_in
 from dofkit.expressions.tree import Expr
 from dofkit.relations.linear_relations import explicit_relations, number_coefficients
 from dofkit.relations.normal.domain import DomainCondition
@@ -125,7 +125,7 @@ def depends_on_time(piece: Clause) -> bool:
     if isinstance(piece, JointEquation):
         return False
     dt = isinstance(piece, Pfaffian) and not piece.dt.is_zero
-    return dt or any(ex.TIME in e.symbols for e in expressions_of(piece))
+    return dt or any("time" in kinds_in(e) for e in expressions_of(piece))
 
 
 def is_measured(block: Block, setting: Setting) -> bool:

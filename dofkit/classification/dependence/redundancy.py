@@ -266,7 +266,7 @@ def _are_written(rows: Iterable[Row], reduced: Iterable[Reduced]) -> bool:
 def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:
     """Return whether each equation has one row and removes one freedom, so that none is implied by the others."""
     rows = [r for block, _ in blocks for r in block.rows]
-    single = Counter(r.constraint for r in rows) == {i: reduced[i].equations for i in numbers}
+    single = sorted([r.constraint for r in rows]) == [i for i in numbers for _ in range(reduced[i].equations)]
     plain = all(a.velocity_dof is not None and not (a.hidden or a.degenerate) for _, a in blocks)
     removed = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
     return single and plain and len(rows) == removed and _are_written(rows, (reduced[i] for i in numbers))

@@ -26,7 +26,7 @@ from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
-from dofkit.expressions.renaming import coordinates_in
+from dofkit.expressions.renaming import coordinates_in, is_name, shape_of
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
@@ -192,7 +192,7 @@ def at_one_point(
     kept, result = list(blocks), simultaneous(written, answers)
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, [restricted_to_domain(b, a, setting) for b, a in zip(written, result, strict=True)])
-    point = _point(blocks, result, setting)
+    point = _point(blocks, result, setting) if domain else {}
     outside = {c for _, c in domain if not hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})}
     if not outside:
         return CommonPoint(kept, result)
@@ -288,7 +288,7 @@ def _shared_symbols(block: Block) -> frozenset[Expr]:
     """Return the time, the named parameters and, as symbols, the names of the unknown functions of a block."""
     pieces = (row.piece for row in block.rows if not isinstance(row.piece, JointEquation))
     written = [*(e for piece in pieces for e in expressions_of(piece)), *(c.expr for c in block.conditions)]
-    named = {s for e in written for s in e.symbols if s.args[0] == "parameter" and not s.args[1].startswith("_")}
+    named = {s for e in written for s in shape_of(e).skeleton.symbols if s.args[0] == "parameter" and not is_name(s)}
     calls = {n for e in written if "call" in e.functions for n in ex.nodes(e) if n.op == "call"}
     functions = {ex.parameter(f"{n.args[0]}(...)") for n in calls}
     timed = any(map(depends_on_time, (*(row.piece for row in block.rows), *block.conditions)))

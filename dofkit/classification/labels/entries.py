@@ -47,9 +47,9 @@ def entries_of(
             check()
             likeness = None if dependence.has_dependence else _likeness(r, labelled[i], setting)
             kind = None if likeness is None else (likeness, dependence)
-            if kind in by_kind:
-                named = {"name": r.constraint.name, "text": r.constraint.text}
-                entries.append(by_kind[kind].model_copy(update=named))
+            like = by_kind.get(kind)
+            if like is not None:
+                entries.append(like.model_copy(update={"name": r.constraint.name, "text": r.constraint.text}))
                 continue
             companions_of = partial(_with_others, i, labelled[i], company)
             alone = by_itself(r, labelled[i], company.answered)
@@ -77,8 +77,8 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
     if any(isinstance(p, Pfaffian) for p in pieces):
         places: dict[str, int] = {}
         for p in pieces:
-            shape, moving = piece_shape(p), coordinates_of(p) - setting.tilts
-            names = [places.setdefault(n, len(places)) if n in moving else n for n in shape.names]
+            shape = piece_shape(p)
+            names = [n if n[0] == "_" or n in setting.tilts else places.setdefault(n, len(places)) for n in shape.names]
             shapes.append((shape.key, *names))
     answers = [t.answer for t in rows]
     return (
@@ -116,13 +116,13 @@ def _dependences(
     seen = {i for result in dependent for i in result.seen}
     claims: dict[int, list[Claim]] = {}
     for result in dependent:
-        for i in {*result.independent, *result.undecided, *result.redundant}:
+        for i in () if result.claim == IDENTITY else {*result.independent, *result.undecided, *result.redundant}:
             claims.setdefault(i, []).append(result.claim)
+    unknown = None if outcome.consistent is False else 0
     for i, rows in enumerate(labelled):
-        number = independent[i] if i in counted else None if rows or outcome.consistent is False else 0
+        number = independent[i] if i in counted else None if rows else unknown
         circuit = [names[j] for j in circuits[i]] if i in circuits else None
-        others = [c for c in claims.get(i, ()) if c != IDENTITY]
-        claim = together(*others) if others else IDENTITY
+        claim = together(*claims[i]) if i in claims else IDENTITY
         sentence = undecided.get(i, "")
         yield EntryDependence(number, circuit, i in redundant, sentence, implied.get(i), i in seen, claim)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, pairwise
+from functools import cache
+from itertools import chain, combinations, pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
@@ -13,8 +14,9 @@ from dofkit.exact.matrices.sparse import along, less
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.real_values import Requirement
-from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
-from dofkit.expressions.vectors import Vec, difference, square, square_between
+from dofkit.expressions.renaming import renamed, shape_of
+from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, coordinate, fn, mul, parameter, power, sqrt
+from dofkit.expressions.vectors import Vec, difference, minus, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase
 from dofkit.scene.fields import Value, as_written
 from dofkit.scene.frames import Placed, between
@@ -93,11 +95,23 @@ def distance(world: World, first: Placed, second: Placed, length: Expr | None) -
             )
     else:
         squared = world.fresh("L")
+        symbols = (*chain.from_iterable(zip(second.over, first.over, strict=True)), squared)
+        names = [str(s.args[1]) for s in symbols if s.op == "sym"]
+        if first.frame is None and second.frame is None and len({*names}) == len(symbols):
+            link = _link_of_particles(world.dimension)
+            return renamed(link, dict(zip(shape_of(link).names, names, strict=True)))
     world.apart(first, second, squared)
     if known_square is not None and first.frame is not None and first.frame == second.frame:
         return difference(known_square, squared)
     arm, under = between(first, second)
     return difference(square(arm), squared if under is ONE else mul(squared, power(under, TWO)))
+
+
+@cache
+def _link_of_particles(dimension: int) -> Expr:
+    """Return |A - B|^2 - L for two particles; its copies in other names have its shape, which is computed once."""
+    first, second = (tuple([coordinate(f"{end}{k}") for k in range(dimension)]) for end in "AB")
+    return difference(square(minus(second, first)), parameter("_L"))
 
 
 def _check_length(world: World, length: Expr, reference_length: Expr | None, before: str, after: str) -> None:
