@@ -37,12 +37,14 @@ class BlockImplication:
         """Return whether a row may remove several freedoms where independent ``others`` are satisfied.
 
         With x = 0, x + y^2 + z^2 = 0 removes two more. Fewer rows than the rank may then imply all the others. If the
-        freedom is not known, they may do so except near a reference.
+        freedom is not known, they may do so except near a reference, and except as many rows as coordinates.
         """
         rows = [self.block.rows[i] for i in (*others, row)]
         remaining = freedom(self.block.coordinates, rows, self.setting)
-        unknown = remaining is None and self.setting.reference is None
-        return unknown or (remaining is not None and remaining < len(self.block.coordinates) - len(rows))
+        if remaining is None:
+            several = len(frozenset[str]().union(*(coordinates_of(r.piece) for r in rows))) > len(rows)
+            return several and self.setting.reference is None
+        return remaining < len(self.block.coordinates) - len(rows)
 
 
 class NearReference(BlockImplication):
