@@ -219,7 +219,7 @@ def _same_dependence(reduced: LinearElimination, matrix: Sequence[SparseRow], p:
     if single or not core:
         return True
     rows = [_primitive(reduced.rows[i]) for i in core]
-    small = math.prod(sum(v * v for v in row) for row in rows) < p * p
+    small = math.prod(max(1, sum(v * v for v in row)) for row in rows) < p * p
     return small or all(sorted(row) in ([-1], [1], [-1, 1]) for row in rows)
 
 
