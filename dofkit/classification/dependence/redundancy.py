@@ -119,9 +119,9 @@ def _of_relations(
     settled = [a for a in answered if isinstance(a, Redundancies)]
     needed = set[int]().union(*(r.needed for r in settled))
     by_rank = []
-    parts = [a for a in answered if isinstance(a, OwnedRows) and a.owners]  # joined if they share a constraint
-    for numbers_of_parts in components(part.owners for part in parts):
-        group = [parts[k] for k in numbers_of_parts]
+    by_rows = [a for a in answered if isinstance(a, OwnedRows) and a.owners]  # joined if they share a constraint
+    for places in components(part.owners for part in by_rows):
+        group = [by_rows[k] for k in places]
         undecided = undecided_dependence(o for rows in group for o in rows.owners)
         by_rank.append(unless_late(partial(analyse, group, needed), undecided))
     conditional = _has_piece(reduced, (i for r in by_rank for i in r.redundant), DomainCondition)

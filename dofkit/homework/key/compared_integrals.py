@@ -62,13 +62,13 @@ def _judgement(reading: AnswerReading, key: Key, name: str) -> Judgement:
 
 def _with_constants(reading: AnswerReading, key: Key) -> Read:
     """Return the answer, `x y` as x y = C with a new constant; that of both sides of `s + C = R phi + C` is none."""
-    own = {parameter(n) for n in reading.undeclared}
-    constants = own & {s for c in reading.relations for s in (c.left - c.right).symbols}
+    undeclared = {parameter(n) for n in reading.undeclared}
+    constants = undeclared & {s for c in reading.relations for s in (c.left - c.right).symbols}
     fresh = (parameter(n) for n in _FRESH if key.declared.names.lookup.meaning(n) is None)
     relations = []
     for c, bare in zip(reading.relations, reading.bare, strict=True):
-        c = c.substituted(dict.fromkeys(own - constants, ONE))
-        if bare and not own:
+        c = c.substituted(dict.fromkeys(undeclared - constants, ONE))
+        if bare and not undeclared:
             c = Comparison(c.left, "=", next(fresh), c.column)
             constants.add(c.right)
         relations.append(c)

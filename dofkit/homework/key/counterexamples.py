@@ -58,9 +58,9 @@ def counterexample(
             continue
         differs = not failing or any(not at[n].contains(0) for n in failing)
         if differs and all(at[n] > 0 for n in inside):
-            shown = {to_text(s): float(state.point.symbols[s]) for s in sorted(symbols & named, key=repr)}
-            shown |= {name: n for name, n in numbers.items() if ex.parameter(name) in named}
-            return ", ".join(f"{name} = {value:.3g}" for name, value in shown.items())
+            values_of = {to_text(s): float(state.point.symbols[s]) for s in sorted(symbols & named, key=repr)}
+            values_of |= {name: n for name, n in numbers.items() if ex.parameter(name) in named}
+            return ", ".join(f"{name} = {value:.3g}" for name, value in values_of.items())
     return ""
 
 
