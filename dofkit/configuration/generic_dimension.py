@@ -26,12 +26,13 @@ from dofkit.exact.matrices.sparse import Pivots, rank_of_rows
 from dofkit.exact.points.balls import BallPoint, RealPoint, jacobian, precision
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch, at_another_time
-from dofkit.exact.ring.program import none_without_value, raising_no_value, values
+from dofkit.exact.ring.program import false_without_value, none_without_value, raising_no_value, values
 from dofkit.exact.zero import independent_on_set
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.tree import Expr
+from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.tree import ZERO, Expr
 from dofkit.relations.blocks import Chart
 from dofkit.relations.linear_relations import explicit_relations
+from dofkit.relations.normal.sign_claims import SignClaim, are_contradictory
 
 
 def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequence[int]) -> Variety:
@@ -135,17 +136,25 @@ def _depends_on_unknown_function(chart: Chart) -> bool:
     """Return whether there may be no configuration for some unknown function: x^2 + h(y) = 2 has none for h = 5."""
     called = any("call" in g.functions for g in chart.relations)
     implicit = explicit_relations(chart.relations).implicit if called else ()
-    return any("call" in g.functions for g in implicit) and (len(implicit) > 1 or not _is_of_odd_degree(implicit[0]))
+    several = len(implicit) > 1 or not all(_is_solvable(e, chart.setting.positive) for e in implicit)
+    return any("call" in g.functions for g in implicit) and several
 
 
-def _is_of_odd_degree(e: Expr) -> bool:
-    """Return whether ``e`` is a polynomial of odd degree, at most 9, in some coordinate, led by a number."""
-    for s in (s for s in e.symbols if s.args[0] == "coordinate"):
+@false_without_value
+def _is_solvable(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Return whether e = 0 has a solution for all functions: a polynomial in a coordinate, led by a number.
+
+    Its degree is odd, at most 9, or the sign where all coordinates are 0 is not that of this number.
+    """
+    coordinates = [s for s in e.symbols if s.args[0] == "coordinate"]
+    for s in coordinates:
         slope, degree = e, 0
         while s in slope.symbols and degree < 9:
             slope, degree = diff(slope, s), degree + 1
-        if slope.op == "num" and not slope.is_zero and degree % 2:
-            return True
+        if slope.op == "num" and not slope.is_zero:
+            start = substitute(e, dict.fromkeys(coordinates, ZERO))
+            if degree % 2 or are_contradictory([SignClaim(slope * start, ">")], positive):
+                return True
     return False
 
 
