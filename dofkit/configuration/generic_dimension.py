@@ -32,6 +32,7 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.relations.blocks import Chart
 from dofkit.relations.linear_relations import explicit_relations
+from dofkit.relations.normal.domain import conditions_of, is_always_satisfied
 from dofkit.relations.normal.sign_claims import SignClaim, are_contradictory
 
 
@@ -144,7 +145,7 @@ def _depends_on_unknown_function(chart: Chart) -> bool:
 def _is_solvable(e: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether e = 0 has a solution for all functions: a polynomial in a coordinate, led by a number.
 
-    Its degree is odd, at most 9, or the sign where all coordinates are 0 is not that of this number.
+    Its degree is odd, at most 9, or it has values everywhere, and where all coordinates are 0 not this number's sign.
     """
     coordinates = [s for s in e.symbols if s.args[0] == "coordinate"]
     for s in coordinates:
@@ -153,7 +154,8 @@ def _is_solvable(e: Expr, positive: frozenset[Expr]) -> bool:
             slope, degree = diff(slope, s), degree + 1
         if slope.op == "num" and not slope.is_zero:
             start = substitute(e, dict.fromkeys(coordinates, ZERO))
-            if degree % 2 or are_contradictory([SignClaim(slope * start, ">")], positive):
+            defined = all(is_always_satisfied(c, positive) for c in conditions_of(e, positive))
+            if degree % 2 or (defined and are_contradictory([SignClaim(slope * start, ">")], positive)):
                 return True
     return False
 
